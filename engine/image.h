@@ -1,0 +1,33 @@
+/* Images in memory: reading (PNG 8 and 16 bit, JPEG, HDR, BMP, TGA, GIF by stb_image; float NRRD of
+ * two dimensions by the volume reader) and writing pictures (PNG, EXR, NPY). */
+#ifndef PLR_ENGINE_IMAGE_H
+#define PLR_ENGINE_IMAGE_H
+
+#include <plugray/engine.h>
+
+typedef enum plr_sample_type {
+    PLR_UNORM8,  /* uint8_t, 255 is 1 */
+    PLR_UNORM16, /* uint16_t, 65535 is 1 */
+    PLR_FLOAT32
+} plr_sample_type;
+
+/* Rows from the bottom, as textures want them; depth 1 for two dimensions. Owned by the struct. */
+typedef struct plr_image {
+    uint32_t width, height, depth;
+    uint32_t components; /* 1 L, 2 LA, 3 RGB, 4 RGBA */
+    plr_sample_type type;
+    void *samples;
+} plr_image;
+
+/* Decodes a file in memory. Limits: 32768 a side, 1 GiB. Faults: bad-image at `place`. */
+bool plr_image_decode(const char *data, size_t length, plr_place place, plr_image *image,
+                      plr_diags *diags);
+/* From an SFImage (width, height, components, pixels; bottom row first) or a PixelTexture3D's image
+ * (components, width, height, depth, pixels) as the scene holds it. */
+bool plr_image_from_sfimage(const plr_field *field, plr_image *image, plr_diags *diags);
+bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags *diags);
+/* The sample (x, y, z, component) as a number, 0..1 for UNORM types. */
+double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
+void plr_image_free(plr_image *image);
+
+#endif

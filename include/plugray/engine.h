@@ -1,0 +1,131 @@
+/* plugray/engine.h - drawing scenes with GL.
+ *
+ * Two ways in: a host that has a GL context (3.3 core or later) gives its loader and draws into its
+ * own framebuffer; a program without one creates a headless plr_context first.
+ *
+ * Thread safety: functions marked "needs GL" must run on the thread where the context is current. */
+#ifndef PLUGRAY_ENGINE_H
+#define PLUGRAY_ENGINE_H
+
+#include <plugray/base.h>
+#include <plugray/plugs.h>
+#include <plugray/x3d.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Headless contexts -------------------------------------------------------------------------- */
+
+typedef enum plr_backend {
+    PLR_BACKEND_AUTO, /* EGL, then OSMesa */
+    PLR_BACKEND_EGL,  /* surfaceless or device platform: no window, no display */
+    PLR_BACKEND_OSMESA
+} plr_backend;
+
+typedef struct plr_context plr_context;
+
+/* Creates a context (GL 3.3 core or later) and makes it current on this thread. Libraries are loaded
+ * at run time. NULL with an error (`no-gl`) that says what was tried. */
+PLR_API plr_context *plr_context_create(plr_backend backend, plr_diags *diags);
+PLR_API void plr_context_destroy(plr_context **context);
+/* Makes it current on the calling thread, whatever was current before. */
+PLR_API bool plr_context_make_current(plr_context *context);
+/* The loader of the context; `user` is the context. */
+PLR_API void *plr_context_get_proc_address(void *context, const char *name);
+/* PLR_BACKEND_EGL or PLR_BACKEND_OSMESA; and a line "EGL, llvmpipe (LLVM 15...), 4.5". */
+PLR_API plr_backend plr_context_backend(const plr_context *context);
+PLR_API const char *plr_context_description(const plr_context *context);
+
+/* ---- Engine --------------------------------------------------------------------------------------- */
+
+typedef struct plr_engine_desc {
+    /* The host's loader; must not be NULL. */
+    void *(*get_proc_address)(void *user, const char *name);
+    void *user;
+    const char *cache_folder; /* for compiled programs; NULL: none on disk */
+} plr_engine_desc;
+
+/* Programs and textures of one GL context. Needs GL. */
+typedef struct plr_engine plr_engine;
+PLR_API plr_engine *plr_engine_create(const plr_engine_desc *desc, plr_diags *diags);
+/* Frees what it made in GL. Needs GL. */
+PLR_API void plr_engine_destroy(plr_engine **engine);
+/* $XDG_CACHE_HOME/plugray or ~/.cache/plugray, written to buffer; false without either. */
+PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
+
+/* ---- A scene made ready ----------------------------------------------------------------------------- */
+
+typedef struct plr_view_desc {
+    const char *viewpoint; /* NULL or "": the first in the file; else number from 1, DEF, description */
+    double time;           /* seconds */
+    double step;           /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
+    int dialect;           /* 0: found out, 2005, or 1: final */
+} plr_view_desc;
+
+/* A scene, with programs, textures and buffers. Scene and engine must outlive it. */
+typedef struct plr_view plr_view;
+
+/* Traverses, links, validates, compiles and uploads. Faulty effects are left out and reported.
+ * `engine` NULL: no GL at all: links and validates only (plugray check, dump, link). Needs GL
+ * otherwise. Returns NULL only without memory or if the viewpoint does not exist. */
+PLR_API plr_view *plr_view_create(plr_engine *engine, plr_scene *scene, const plr_view_desc *desc,
+                                  plr_diags *diags);
+PLR_API void plr_view_destroy(plr_view **view);
+
+typedef struct plr_draw_desc {
+    int width, height; /* pixels, at least 1 */
+    int samples;       /* per pixel, along a fixed pattern; 0: 1 */
+} plr_draw_desc;
+
+/* A picture in memory: width * height RGBA floats, premultiplied, top row first. */
+typedef struct plr_picture {
+    int width, height;
+    float *pixels;
+} plr_picture;
+
+/* Draws into memory. Needs GL. Free with plr_picture_free. */
+PLR_API bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *picture,
+                           plr_diags *diags);
+PLR_API void plr_picture_free(plr_picture *picture);
+/* Draws into the framebuffer that is bound (colour and depth), in the viewport that is set, with the
+ * host's camera: column-major projection and view matrices, NULL for the scene's viewpoint. All GL
+ * state is restored. Needs GL. */
+PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
+                                plr_diags *diags);
+
+/* Writes by the ending of `path`: .png (8-bit; opaque over black, or straight alpha if
+ * `transparent`), .exr (float, premultiplied), .npy (float32, height x width x 4). */
+PLR_API bool plr_picture_write(const plr_picture *picture, const char *path, bool transparent,
+                               plr_diags *diags);
+
+/* ---- What a view is made of --------------------------------------------------------------------------- */
+
+typedef struct plr_program_info {
+    const char *name; /* "volume-1", "surface-3": unique in the view */
+    const plr_program *program;
+    const plr_effect *effects; /* as linked */
+    size_t effect_count;
+    uint32_t instructions, fetches; /* of the fragment stage, counted in its SPIR-V */
+} plr_program_info;
+
+PLR_API size_t plr_view_program_count(const plr_view *view);
+PLR_API const plr_program_info *plr_view_program(const plr_view *view, size_t index);
+
+typedef struct plr_phase {
+    double cpu_ms, wall_ms;
+} plr_phase;
+
+typedef struct plr_view_stats {
+    plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
+    double samples;                        /* volume samples asked for in the last draw, at most */
+} plr_view_stats;
+PLR_API void plr_view_get_stats(const plr_view *view, plr_view_stats *stats);
+
+/* The GLSL that plugray brings: path below effects/, text. NULL beyond the last. */
+PLR_API const char *plr_effects_file(size_t index, const char **text, size_t *length);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
