@@ -1,0 +1,30 @@
+/* What the host gives to every program that asks for it. None of these is ever renamed; an effect
+ * may declare any of them again, with the same type. */
+
+/* Of the geometry. */
+in vec4 castle_Vertex;
+in vec3 castle_Normal;
+in vec4 castle_ColorPerVertex;
+in vec4 castle_MultiTexCoord0;
+in vec4 castle_MultiTexCoord1;
+in vec4 castle_MultiTexCoord2;
+in vec4 castle_MultiTexCoord3;
+in vec4 castle_MultiTexCoord4;
+in vec4 castle_MultiTexCoord5;
+in vec4 castle_MultiTexCoord6;
+in vec4 castle_MultiTexCoord7;
+
+/* Of the shape: object space to eye space, normals too, and eye space to clip space. */
+uniform mat4 castle_ModelViewMatrix;
+uniform mat4 castle_ProjectionMatrix;
+uniform mat3 castle_NormalMatrix;
+
+/* Of the picture. Model: object to world; view: world to eye; projection: eye to clip space. */
+uniform mat4 plugray_ModelMatrix;
+uniform mat4 plugray_ViewMatrix;
+uniform mat4 plugray_ProjectionMatrix;
+uniform mat4 plugray_InverseModelMatrix;
+uniform mat4 plugray_InverseViewMatrix;
+uniform mat4 plugray_InverseProjectionMatrix;
+uniform float plugray_Time;        /* seconds */
+uniform vec2 plugray_ViewportSize; /* pixels */
