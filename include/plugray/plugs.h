@@ -44,6 +44,10 @@ PLR_API void plr_source_destroy(plr_source **source);
 PLR_API plr_stage plr_source_stage(const plr_source *source);
 /* The text as given, NUL-terminated; owned by the source. */
 PLR_API const char *plr_source_text(const plr_source *source, size_t *length);
+/* The names of the plugs whose comments stand anywhere in the text, inactive branches included; each
+ * name once, in order of text. */
+PLR_API size_t plr_source_plug_count(const plr_source *source);
+PLR_API const char *plr_source_plug(const plr_source *source, size_t index);
 
 /* ---- Describing a program --------------------------------------------------------------------- */
 
@@ -72,8 +76,8 @@ typedef struct plr_effect {
     const plr_define *defines;
     size_t define_count;
     /* 0: PLR_WHOLE. k: this effect is local to effect k-1 of the list (a light, a texture, a volume;
-     * it must stand earlier): it uses the plugs of that effect, and where that effect has none of
-     * the name, those of everything before it. */
+     * it must stand earlier): it uses the plugs of that effect and of the effects attached to it,
+     * directly or not, and where these have none of the name, those of everything before it. */
     size_t attached;
     bool builtin;    /* comes with the host: may be a target, stands before authors' in its place */
     bool disabled;   /* keeps its number, contributes nothing */
