@@ -1,0 +1,33 @@
+/* What the lights share. */
+
+/* The direction at length 1; what has no direction stays zero. */
+vec3 unit_or_zero(vec3 direction) {
+    float squared = dot(direction, direction);
+    return squared > 0.0 ? direction * inversesqrt(squared) : vec3(0.0);
+}
+
+/* From a point in eye space to the viewer, length 1; in parallel projection the same for all. */
+vec3 direction_to_viewer(vec4 vertex_eye) {
+    return castle_ProjectionMatrix[3][3] == 0.0 ? unit_or_zero(-vertex_eye.xyz)
+                                                : vec3(0.0, 0.0, 1.0);
+}
+
+/* ISO/IEC 19775-1 V4 17.2.2: diffuse_i + specular_i without I_i. `light_dir` is the unit vector to
+ * the light, L; H lies between L and the direction to the viewer. A zero normal reflects nothing. */
+vec3 phong_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
+    vec3 reflected = material.diffuse * max(dot(normal_eye, light_dir), 0.0);
+    vec3 between = unit_or_zero(light_dir + direction_to_viewer(vertex_eye));
+    float n_dot_h = dot(normal_eye, between);
+    if (n_dot_h > 0.0)
+        reflected += material.specular * pow(n_dot_h, material.shininess);
+    return reflected;
+}
+
+/* 17.2.2: 1 / max(c1 + c2 d + c3 d^2, 1), and nothing beyond the radius; `to_light` is in the
+ * light's own coordinates, where its radius and attenuation are given. */
+float light_attenuation(vec3 to_light, vec3 attenuation, float radius) {
+    float d = length(to_light);
+    if (d > radius)
+        return 0.0;
+    return 1.0 / max(attenuation.x + (attenuation.y + attenuation.z * d) * d, 1.0);
+}

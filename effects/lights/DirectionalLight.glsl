@@ -1,0 +1,18 @@
+/* ISO/IEC 19775-1 V4 17.4, DirectionalLight, and 17.2.2. `nodeToEye` carries the light's own coordinates
+ * to eye space. A zero normal gets ambient light only. */
+
+uniform mat4 nodeToEye = mat4(1.0);
+uniform vec3 direction = vec3(0.0, 0.0, -1.0);
+uniform vec3 color = vec3(1.0);
+uniform float intensity = 1.0;
+uniform float ambientIntensity = 0.0;
+
+void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
+                    const in MaterialInfo material) {
+    vec3 light_dir = unit_or_zero(mat3(nodeToEye) * -direction);
+    float scale = 1.0;
+    /* PLUG: light_scale (scale, normal_eye, light_dir) */
+    lit.rgb += scale * color *
+               (ambientIntensity * material.ambient +
+                intensity * phong_reflection(material, vertex_eye, normal_eye, light_dir));
+}
