@@ -180,6 +180,7 @@ typedef struct plr_symbol {
     const char *type;    /* "vec3", "sampler2D", a struct's program name, ... */
     uint32_t array;      /* elements, 0: no array, UINT32_MAX: an expression that is no number */
     unsigned stages;     /* bit (1u << stage) for each stage that has it */
+    bool initialized;    /* its declaration gives a value */
     plr_place place;
 } plr_symbol;
 
