@@ -1,0 +1,263 @@
+/* plugray render: a scene into a picture. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/plugray/commands.h"
+#include "tools/plugray/files.h"
+#include "tools/plugray/json.h"
+#include "tools/plugray/progress.h"
+#include "tools/plugray/scene.h"
+#include "tools/plugray/stats.h"
+
+enum {
+    MAX_SIDE = 16384
+};
+
+typedef struct render_job {
+    const tool_arguments *arguments;
+    const char *path; /* of the picture, or NULL */
+    plr_draw_desc draw;
+    plr_backend backend;
+    double step;
+    long repeat; /* 0: one draw without a warm-up */
+    int stats;   /* one of the below */
+    tool_scene scene;
+    plr_context *context;
+    plr_engine *engine;
+    plr_view *view;
+    plr_picture picture;
+    plr_phase drawn; /* the median */
+} render_job;
+
+enum {
+    NO_STATS,
+    STATS_TEXT,
+    STATS_JSON
+};
+
+/* ---- The command line ---------------------------------------------------------------------------
+ */
+
+static bool has_picture_ending(const char *path) {
+    static const char *const endings[] = {".png", ".exr", ".npy"};
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (length > 4 && strcmp(path + length - 4, endings[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool check_probes(const render_job *job) {
+    const tool_arguments *a = job->arguments;
+    const char *text;
+    for (size_t next = 0; (text = option_next(a, OPTION_PROBE, &next));) {
+        long at[2];
+        if (!read_pair(text, ',', 0, MAX_SIDE, at)) {
+            usage_error(a, "--probe takes X,Y in pixels from 0, not '%s'", text);
+            return false;
+        }
+        if (at[0] >= job->draw.width || at[1] >= job->draw.height) {
+            usage_error(a, "--probe %s lies outside the %dx%d pixels", text, job->draw.width,
+                        job->draw.height);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool read_size(render_job *job) {
+    const char *size = option_value(job->arguments, OPTION_SIZE);
+    long pair[2] = {640, 480};
+    if (size && !read_pair(size, 'x', 1, MAX_SIDE, pair)) {
+        usage_error(job->arguments, "--size takes WxH in pixels from 1 to %d, not '%s'", MAX_SIDE,
+                    size);
+        return false;
+    }
+    job->draw.width = (int)pair[0];
+    job->draw.height = (int)pair[1];
+    return true;
+}
+
+static bool read_backend(render_job *job) {
+    const char *text = option_value(job->arguments, OPTION_BACKEND);
+    int index = text ? word_index(option_words(OPTION_BACKEND), text) : PLR_BACKEND_AUTO;
+    if (index < 0) {
+        usage_error(job->arguments, "--backend takes %s, not '%s'", option_words(OPTION_BACKEND),
+                    text);
+        return false;
+    }
+    job->backend = (plr_backend)index;
+    return true;
+}
+
+static bool read_outputs(render_job *job) {
+    const tool_arguments *a = job->arguments;
+    job->path = option_value(a, OPTION_PICTURE);
+    const char *stats = option_value(a, OPTION_STATS);
+    if (stats && *stats && strcmp(stats, "json") != 0) {
+        usage_error(a, "--stats takes json or nothing, not '%s'", stats);
+        return false;
+    }
+    job->stats = !stats ? NO_STATS : *stats ? STATS_JSON : STATS_TEXT;
+    if (job->path && !has_picture_ending(job->path)) {
+        usage_error(a, "-o takes a file that ends in .png, .exr or .npy, not '%s'", job->path);
+        return false;
+    }
+    if (!job->path && !job->stats && !option_value(a, OPTION_PROBE)) {
+        usage_error(a, "at least one of -o, --probe, --stats is needed");
+        return false;
+    }
+    return true;
+}
+
+static bool read_options(render_job *job) {
+    const tool_arguments *a = job->arguments;
+    long samples = 1;
+    if (!read_outputs(job) || !read_size(job) || !read_backend(job) || !check_probes(job) ||
+        !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
+        !option_integer(a, OPTION_SAMPLES, 1, 4096, &samples) ||
+        !option_integer(a, OPTION_REPEAT, 1, 1000000, &job->repeat))
+        return false;
+    job->draw.samples = (int)samples;
+    return true;
+}
+
+/* ---- Drawing ------------------------------------------------------------------------------------
+ */
+
+static int open_engine(render_job *job) {
+    char folder[4096];
+    bool cached = !option_value(job->arguments, OPTION_NO_CACHE) &&
+                  plr_engine_default_cache(folder, sizeof folder);
+    job->context = plr_context_create(job->backend, job->scene.diags);
+    if (!job->context)
+        return STATUS_MACHINE;
+    plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address,
+                            .user = job->context,
+                            .cache_folder = cached ? folder : NULL};
+    job->engine = plr_engine_create(&desc, job->scene.diags);
+    return job->engine ? STATUS_FINE : STATUS_MACHINE;
+}
+
+static int compare_times(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *times, size_t count) {
+    qsort(times, count, sizeof *times, compare_times);
+    return count % 2 ? times[count / 2] : (times[count / 2 - 1] + times[count / 2]) / 2;
+}
+
+static bool draw_once(render_job *job, plr_phase *time) {
+    plr_picture_free(&job->picture);
+    if (!plr_view_draw(job->view, &job->draw, &job->picture, job->scene.diags))
+        return false;
+    plr_view_stats stats;
+    plr_view_get_stats(job->view, &stats);
+    *time = stats.draw;
+    return true;
+}
+
+static bool draw(render_job *job) {
+    if (!draw_once(job, &job->drawn))
+        return false;
+    size_t count = (size_t)job->repeat;
+    double *cpu = memory_array(NULL, count, sizeof *cpu);
+    double *wall = memory_array(NULL, count, sizeof *wall);
+    bool drawn = true;
+    for (size_t i = 0; drawn && i < count; i++) {
+        plr_phase time = {0};
+        drawn = draw_once(job, &time);
+        cpu[i] = time.cpu_ms;
+        wall[i] = time.wall_ms;
+    }
+    if (drawn && count)
+        job->drawn = (plr_phase){median(cpu, count), median(wall, count)};
+    free(cpu);
+    free(wall);
+    return drawn;
+}
+
+/* ---- Results ------------------------------------------------------------------------------------
+ */
+
+/* A decimal number with a leading digit; what is no number is said to be none. */
+static void print_decimal(double value, const char *after) {
+    if (isfinite(value))
+        printf("%.8f%s", fabs(value) < 5e-9 ? 0.0 : value, after);
+    else
+        printf("%s%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf", after);
+}
+
+static void print_probes(const render_job *job) {
+    const char *text;
+    for (size_t next = 0; (text = option_next(job->arguments, OPTION_PROBE, &next));) {
+        long at[2];
+        read_pair(text, ',', 0, MAX_SIDE, at);
+        size_t pixel = (size_t)at[1] * (size_t)job->picture.width + (size_t)at[0];
+        for (size_t i = 0; i < 4; i++)
+            print_decimal((double)job->picture.pixels[4 * pixel + i], i < 3 ? " " : "\n");
+    }
+}
+
+static void write_results(render_job *job) {
+    plr_diags *diags = job->scene.diags;
+    if (job->path && folder_make_above(job->path, diags))
+        plr_picture_write(&job->picture, job->path,
+                          option_value(job->arguments, OPTION_TRANSPARENT) != NULL, diags);
+    progress(NULL);
+    print_probes(job);
+    render_stats stats = {.view = job->view, .load = job->scene.load, .draw = job->drawn};
+    if (job->stats == STATS_TEXT)
+        stats_text(stdout, &stats);
+    else if (job->stats == STATS_JSON)
+        stats_json(stdout, &stats);
+}
+
+/* Returns the status to end with where it is not the diagnostics that decide. */
+static int render(render_job *job) {
+    progress("starting GL");
+    int status = open_engine(job);
+    if (status != STATUS_FINE)
+        return status;
+    progress("linking and loading");
+    job->view = plr_view_create(job->engine, job->scene.scene, &job->scene.view, job->scene.diags);
+    if (!job->view)
+        return tool_view_failure(&job->scene);
+    progress("drawing");
+    if (!draw(job))
+        return STATUS_MACHINE;
+    progress("writing");
+    write_results(job);
+    return STATUS_FINE;
+}
+
+static void close_job(render_job *job) {
+    plr_picture_free(&job->picture);
+    plr_view_destroy(&job->view);
+    if (job->engine)
+        plr_engine_destroy(&job->engine);
+    if (job->context)
+        plr_context_destroy(&job->context);
+    tool_scene_close(&job->scene);
+}
+
+int command_render(const tool_arguments *arguments) {
+    render_job job = {.arguments = arguments};
+    if (!read_options(&job))
+        return STATUS_USAGE;
+    int status = tool_scene_open(&job.scene, arguments, arguments->operands[0]);
+    if (status == STATUS_FINE) {
+        job.scene.view.viewpoint = option_value(arguments, OPTION_VIEWPOINT);
+        job.scene.view.step = job.step;
+        if (job.scene.scene)
+            status = render(&job);
+        int told = tool_scene_finish(&job.scene);
+        status = status == STATUS_FINE ? told : status;
+    }
+    close_job(&job);
+    return status;
+}

@@ -1,0 +1,57 @@
+#include "tools/plugray/stats.h"
+
+#include "tools/plugray/json.h"
+
+enum {
+    PHASE_COUNT = 5
+};
+static const char *const phase_names[PHASE_COUNT] = {"load", "link", "compile", "upload", "draw"};
+
+static plr_view_stats get_phases(const render_stats *stats, plr_phase phases[PHASE_COUNT]) {
+    plr_view_stats view;
+    plr_view_get_stats(stats->view, &view);
+    phases[0] = stats->load;
+    phases[1] = view.link;
+    phases[2] = view.compile;
+    phases[3] = view.upload;
+    phases[4] = stats->draw;
+    return view;
+}
+
+void stats_text(FILE *out, const render_stats *stats) {
+    plr_phase phases[PHASE_COUNT];
+    plr_view_stats view = get_phases(stats, phases);
+    for (int i = 0; i < PHASE_COUNT; i++)
+        fprintf(out, "%-8s %10.3f ms, %10.3f ms of processors\n", phase_names[i], phases[i].wall_ms,
+                phases[i].cpu_ms);
+    fprintf(out, "%-8s %10.0f\n", "samples", view.samples);
+    for (size_t i = 0; i < plr_view_program_count(stats->view); i++) {
+        const plr_program_info *info = plr_view_program(stats->view, i);
+        fprintf(out, "%s: %u instructions, %u fetches\n", info->name, info->instructions,
+                info->fetches);
+    }
+}
+
+void stats_json(FILE *out, const render_stats *stats) {
+    plr_phase phases[PHASE_COUNT];
+    plr_view_stats view = get_phases(stats, phases);
+    fputs("{\n  \"phases\": {", out);
+    for (int i = 0; i < PHASE_COUNT; i++) {
+        fprintf(out, "%s\n    \"%s\": {\"cpu_ms\": ", i ? "," : "", phase_names[i]);
+        json_number(out, phases[i].cpu_ms);
+        fputs(", \"wall_ms\": ", out);
+        json_number(out, phases[i].wall_ms);
+        putc('}', out);
+    }
+    fputs("\n  },\n  \"samples\": ", out);
+    fprintf(out, "%.0f,\n  \"programs\": [", view.samples);
+    for (size_t i = 0; i < plr_view_program_count(stats->view); i++) {
+        const plr_program_info *info = plr_view_program(stats->view, i);
+        fprintf(out, "%s\n    {\"name\": ", i ? "," : "");
+        json_string(out, info->name);
+        fprintf(out, ", \"instructions\": %u, \"fetches\": %u}", info->instructions, info->fetches);
+    }
+    /* This version bounds no error: nothing is asked, nothing is claimed. */
+    fputs("\n  ],\n  \"error\": {\"asked\": null, \"kind\": \"estimated\", \"value\": null}\n}\n",
+          out);
+}
