@@ -31,8 +31,8 @@ plr_allocator plr_allocator_resolve(const plr_allocator *allocator) {
 }
 
 void plr_arena_init(plr_arena *arena, const plr_allocator *allocator, jmp_buf *out_of_memory) {
-    *arena = (plr_arena){.allocator = plr_allocator_resolve(allocator),
-                         .out_of_memory = out_of_memory};
+    *arena =
+        (plr_arena){.allocator = plr_allocator_resolve(allocator), .out_of_memory = out_of_memory};
 }
 
 void plr_arena_finish(plr_arena *arena) {

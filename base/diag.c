@@ -132,14 +132,17 @@ void plr_diags_add_as(plr_diags *diags, plr_severity severity, plr_code code, pl
 void plr_diags_note(plr_diags *diags, plr_place place, const char *format, ...) {
     if (!diags)
         return;
-    plr_code code = diags->list.count ? diags->list.items[diags->list.count - 1].code : PLR_CODE_LACKS;
+    plr_code code =
+        diags->list.count ? diags->list.items[diags->list.count - 1].code : PLR_CODE_LACKS;
     va_list arguments;
     va_start(arguments, format);
     add(diags, (plr_diag){PLR_NOTE, code, place, NULL}, format, arguments);
     va_end(arguments);
 }
 
-size_t plr_diags_count(const plr_diags *diags) { return diags ? diags->list.count : 0; }
+size_t plr_diags_count(const plr_diags *diags) {
+    return diags ? diags->list.count : 0;
+}
 
 const plr_diag *plr_diags_get(const plr_diags *diags, size_t index) {
     return index < plr_diags_count(diags) ? &diags->list.items[index] : NULL;

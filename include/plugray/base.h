@@ -1,7 +1,7 @@
 /* plugray/base.h - what every part of plugray shares: places in files, diagnostics, allocators.
  *
- * Thread safety: there is no global state. One object may be used by one thread at a time, different
- * objects by different threads. */
+ * Thread safety: there is no global state. One object may be used by one thread at a time,
+ * different objects by different threads. */
 #ifndef PLUGRAY_BASE_H
 #define PLUGRAY_BASE_H
 
@@ -45,8 +45,8 @@ typedef struct plr_break {
     uint32_t line, column;
 } plr_break;
 
-/* Where a text comes from. Byte 0 stands at line:column of `file` (0 means 1); after each newline of
- * the text the line grows by one and the column starts again at 1. Where decoding (an escape, an
+/* Where a text comes from. Byte 0 stands at line:column of `file` (0 means 1); after each newline
+ * of the text the line grows by one and the column starts again at 1. Where decoding (an escape, an
  * entity) made text and file differ, `breaks`, sorted by offset, say where the text goes on. */
 typedef struct plr_origin {
     const char *file;
@@ -97,8 +97,8 @@ PLR_API plr_diags *plr_diags_create(const plr_allocator *allocator);
 PLR_API void plr_diags_destroy(plr_diags **diags);
 /* Adds a diagnostic; printf formats of numbers and strings only. `diags` NULL: nothing happens.
  * Without memory the diagnostic is lost, but counted. */
-PLR_API void plr_diags_add(plr_diags *diags, plr_code code, plr_place place, const char *format, ...)
-    PLR_PRINTF(4, 5);
+PLR_API void plr_diags_add(plr_diags *diags, plr_code code, plr_place place, const char *format,
+                           ...) PLR_PRINTF(4, 5);
 /* The same with a severity other than the usual one. */
 PLR_API void plr_diags_add_as(plr_diags *diags, plr_severity severity, plr_code code,
                               plr_place place, const char *format, ...) PLR_PRINTF(5, 6);

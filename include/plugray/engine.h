@@ -3,7 +3,8 @@
  * Two ways in: a host that has a GL context (3.3 core or later) gives its loader and draws into its
  * own framebuffer; a program without one creates a headless plr_context first.
  *
- * Thread safety: functions marked "needs GL" must run on the thread where the context is current. */
+ * Thread safety: functions marked "needs GL" must run on the thread where the context is current.
+ */
 #ifndef PLUGRAY_ENGINE_H
 #define PLUGRAY_ENGINE_H
 
@@ -15,7 +16,8 @@
 extern "C" {
 #endif
 
-/* ---- Headless contexts -------------------------------------------------------------------------- */
+/* ---- Headless contexts --------------------------------------------------------------------------
+ */
 
 typedef enum plr_backend {
     PLR_BACKEND_AUTO, /* EGL, then OSMesa */
@@ -25,8 +27,8 @@ typedef enum plr_backend {
 
 typedef struct plr_context plr_context;
 
-/* Creates a context (GL 3.3 core or later) and makes it current on this thread. Libraries are loaded
- * at run time. NULL with an error (`no-gl`) that says what was tried. */
+/* Creates a context (GL 3.3 core or later) and makes it current on this thread. Libraries are
+ * loaded at run time. NULL with an error (`no-gl`) that says what was tried. */
 PLR_API plr_context *plr_context_create(plr_backend backend, plr_diags *diags);
 PLR_API void plr_context_destroy(plr_context **context);
 /* Makes it current on the calling thread, whatever was current before. */
@@ -37,7 +39,8 @@ PLR_API void *plr_context_get_proc_address(void *context, const char *name);
 PLR_API plr_backend plr_context_backend(const plr_context *context);
 PLR_API const char *plr_context_description(const plr_context *context);
 
-/* ---- Engine --------------------------------------------------------------------------------------- */
+/* ---- Engine
+ * --------------------------------------------------------------------------------------- */
 
 typedef struct plr_engine_desc {
     /* The host's loader; must not be NULL. */
@@ -54,13 +57,15 @@ PLR_API void plr_engine_destroy(plr_engine **engine);
 /* $XDG_CACHE_HOME/plugray or ~/.cache/plugray, written to buffer; false without either. */
 PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
 
-/* ---- A scene made ready ----------------------------------------------------------------------------- */
+/* ---- A scene made ready
+ * ----------------------------------------------------------------------------- */
 
 typedef struct plr_view_desc {
-    const char *viewpoint; /* NULL or "": the first in the file; else number from 1, DEF, description */
-    double time;           /* seconds */
-    double step;           /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
-    int dialect;           /* 0: found out, 2005, or 1: final */
+    const char
+        *viewpoint; /* NULL or "": the first in the file; else number from 1, DEF, description */
+    double time;    /* seconds */
+    double step;    /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
+    int dialect;    /* 0: found out, 2005, or 1: final */
 } plr_view_desc;
 
 /* A scene, with programs, textures and buffers. Scene and engine must outlive it. */
@@ -88,9 +93,9 @@ typedef struct plr_picture {
 PLR_API bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *picture,
                            plr_diags *diags);
 PLR_API void plr_picture_free(plr_picture *picture);
-/* Draws into the framebuffer that is bound (colour and depth), in the viewport that is set, with the
- * host's camera: column-major projection and view matrices, NULL for the scene's viewpoint. All GL
- * state is restored. Needs GL. */
+/* Draws into the framebuffer that is bound (colour and depth), in the viewport that is set, with
+ * the host's camera: column-major projection and view matrices, NULL for the scene's viewpoint. All
+ * GL state is restored. Needs GL. */
 PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
                                 plr_diags *diags);
 
@@ -99,7 +104,8 @@ PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const 
 PLR_API bool plr_picture_write(const plr_picture *picture, const char *path, bool transparent,
                                plr_diags *diags);
 
-/* ---- What a view is made of --------------------------------------------------------------------------- */
+/* ---- What a view is made of
+ * --------------------------------------------------------------------------- */
 
 typedef struct plr_program_info {
     const char *name; /* "volume-1", "surface-3": unique in the view */

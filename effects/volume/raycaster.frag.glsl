@@ -1,0 +1,154 @@
+#version 330 core
+/* The base raycaster. It sets up the ray, finds how far it may go, walks it in steps and hands each
+ * step to the volumes (Volume.glsl) and to the compositing effect (Composite.glsl). All distances
+ * along a ray are in eye space: 0 at the eye, or at the eye's plane where the projection is parallel. */
+
+/* What is known of one sample. Members that nothing reads are not in the program. */
+struct VolumeSample {
+    vec4 value;         /* voxel in [0,1]; missing components 0, the fourth 1 */
+#if READS(position)
+    vec3 position;      /* texture coordinates of the volume, [0,1] */
+#endif
+#if READS(position_eye)
+    vec3 position_eye;
+#endif
+#if READS(normal_eye)
+    vec3 normal_eye;    /* unit, against the gradient; zero where that vanishes */
+#endif
+#if READS(gradient)
+    float gradient;     /* magnitude, value per unit length in the volume's own coordinates */
+#endif
+#if READS(step_length)
+    float step_length;  /* own coordinates of the volume; eye space in a mix */
+#endif
+#if READS(segment)
+    int segment;
+#endif
+#if READS(volume)
+    int volume;         /* -1 in a mix of several */
+#endif
+};
+
+uniform mat4 castle_ProjectionMatrix;
+uniform vec4 viewport; /* x, y, width, height in pixels */
+#if HAS_OPAQUE
+uniform sampler2D opaqueDepth;
+#endif
+#if HAS_CUT
+uniform vec2 viewpointCut; /* near and far distance that the viewpoint asks for, as planes */
+#endif
+#if EARLY_END
+uniform float transparencyLeft; /* rays end where less than this shines through */
+#endif
+
+out vec4 plugray_FragColor;
+
+/* PLUG-DECLARATIONS */
+
+const float NOWHERE = 3.0e38;
+
+#if HAS_OPAQUE
+/* Distance along the ray of what the depth buffer holds at this pixel. */
+float opaque_distance(vec3 direction_eye) {
+    float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).r;
+    if (depth >= 1.0)
+        return NOWHERE;
+    float ndc = 2.0 * depth - 1.0;
+    mat4 p = castle_ProjectionMatrix;
+    float z = p[2][3] != 0.0 ? -p[3][2] / (ndc + p[2][2]) : (ndc - p[3][2]) / p[2][2];
+    return z / direction_eye.z;
+}
+#endif
+
+/* The ray through the pixel's centre, from the eye or, in parallel projection, from its plane. */
+void ray_of_pixel(out vec3 origin_eye, out vec3 direction_eye) {
+    vec2 ndc = (gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0;
+    mat4 p = castle_ProjectionMatrix;
+    vec2 scale = vec2(p[0][0], p[1][1]);
+    if (p[2][3] != 0.0) {
+        origin_eye = vec3(0.0);
+        direction_eye = normalize(vec3((ndc + p[2].xy) / scale, -1.0));
+    } else {
+        origin_eye = vec3((ndc - p[3].xy) / scale, 0.0);
+        direction_eye = vec3(0.0, 0.0, -1.0);
+    }
+}
+
+void main() {
+    vec3 origin_eye, direction_eye;
+    ray_of_pixel(origin_eye, direction_eye);
+    float start = 0.0;
+    float limit = NOWHERE;
+#if HAS_CUT
+    start = viewpointCut.x / -direction_eye.z;
+    limit = viewpointCut.y / -direction_eye.z;
+#endif
+#if HAS_OPAQUE
+    limit = min(limit, opaque_distance(direction_eye));
+#endif
+    /* PLUG: volume_begin (origin_eye, direction_eye, start, limit) */
+
+    vec4 accumulated = vec4(0.0);
+    float depth = NOWHERE;
+#if VOLUME_COUNT > 1
+    float t = NOWHERE;
+    /* PLUG: volume_first (t) */
+    /* Between two neighbouring entries and exits the set of volumes does not change: steps never
+     * straddle one, and what does not overlap along this ray is met in order along this ray. */
+    for (int part = 0; part < 2 * VOLUME_COUNT && t < NOWHERE; part++) {
+#else
+    float t = 0.0;
+#endif
+        float t_next = NOWHERE;
+        float step_length = NOWHERE;
+        /* PLUG: volume_part (t, t_next, step_length) */
+#if VOLUME_COUNT > 1
+        if (t_next >= NOWHERE)
+            break;
+#endif
+        float whole = max(t_next - t, 0.0);
+        int steps = step_length < NOWHERE ? int(min(ceil(whole / step_length), 1.0e6)) : 0;
+        for (int i = 0; i < steps; i++) {
+            /* the last step is shortened: lengths add up to the part */
+            float done = float(i) * step_length;
+            float span = min(step_length, whole - done);
+            float t_middle = t + done + 0.5 * span;
+            VolumeSample s;
+            vec4 color;
+#if VOLUME_COUNT > 1
+            VolumeMix mixed = VolumeMix(vec3(0.0), 0.0, vec3(0.0), 0.0);
+            /* PLUG: volume_mix (mixed, t_middle, span, origin_eye, direction_eye) */
+            color = volume_mix_color(mixed);
+#if READS(position_eye)
+            s.position_eye = origin_eye + t_middle * direction_eye;
+#endif
+#if READS(step_length)
+            s.step_length = span;
+#endif
+#if READS(volume)
+            s.volume = -1;
+#endif
+#else
+            /* PLUG: volume_step (color, s, t_middle, span, origin_eye, direction_eye) */
+#endif
+            /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+            if (depth >= NOWHERE && accumulated.a > 0.0)
+                depth = t_middle;
+#endif
+#if EARLY_END
+            if (1.0 - accumulated.a < transparencyLeft)
+                break;
+#endif
+        }
+#if VOLUME_COUNT > 1
+#if EARLY_END
+        if (1.0 - accumulated.a < transparencyLeft)
+            break;
+#endif
+        t = t_next;
+    }
+#endif
+    /* PLUG: volume_ray_end (accumulated, depth) */
+    plugray_FragColor = accumulated;
+}

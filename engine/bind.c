@@ -1,0 +1,487 @@
+#include "engine/bind.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- GLSL types and the field types that fit them ---------------------------------------------
+ */
+
+typedef enum shape {
+    SHAPE_FLOAT,
+    SHAPE_INT,
+    SHAPE_MATRIX,
+    SHAPE_SAMPLER
+} shape;
+
+static const struct glsl_type {
+    const char *name;
+    shape shape;
+    int components;
+    const char *fields; /* element types that may be bound, without SF or MF */
+} glsl_types[] = {
+    {"float", SHAPE_FLOAT, 1, " Float Double Time "},
+    {"vec2", SHAPE_FLOAT, 2, " Vec2f Vec2d "},
+    {"vec3", SHAPE_FLOAT, 3, " Vec3f Vec3d Color "},
+    {"vec4", SHAPE_FLOAT, 4, " Vec4f Vec4d ColorRGBA Rotation Color "},
+    {"bool", SHAPE_INT, 1, " Bool "},
+    {"int", SHAPE_INT, 1, " Int32 "},
+    {"mat3", SHAPE_MATRIX, 9, " Matrix3f Matrix3d "},
+    {"mat4", SHAPE_MATRIX, 16, " Matrix4f Matrix4d "},
+    {"sampler2D", SHAPE_SAMPLER, 2, " Node "},
+    {"sampler3D", SHAPE_SAMPLER, 3, " Node "},
+    {"samplerCube", SHAPE_SAMPLER, 6, " Node "},
+};
+
+static const struct glsl_type *find_glsl_type(const char *name) {
+    for (size_t i = 0; i < sizeof glsl_types / sizeof *glsl_types; i++)
+        if (strcmp(glsl_types[i].name, name) == 0)
+            return &glsl_types[i];
+    return NULL;
+}
+
+static bool field_fits(const plr_field *field, const struct glsl_type *type, bool array) {
+    char element[32];
+    snprintf(element, sizeof element, " %s ", plr_type_name(field->type) + 2);
+    return type && strstr(type->fields, element) && plr_type_is_multiple(field->type) == array;
+}
+
+/* A field by path: "material_diffuseColor" is the field diffuseColor of the node in material. */
+static const plr_field *field_by_path(const plr_node *node, const char *path) {
+    const plr_field *field = plr_node_field(node, path);
+    const char *split = strchr(path, '_');
+    if (field || !split || split - path >= 64)
+        return field;
+    char head[64];
+    snprintf(head, sizeof head, "%.*s", (int)(split - path), path);
+    const plr_node *child = plr_node_child(node, head);
+    return child ? field_by_path(child, split + 1) : NULL;
+}
+
+/* ---- Values that the engine knows
+ * ------------------------------------------------------------------ */
+
+typedef struct context {
+    const plr_values *values;
+    const plr_binding *binding; /* NULL: base or library */
+    const plr_volume_state *volume;
+} context;
+
+static plr_matrix model_view(const context *c) {
+    return plr_matrix_multiply(&c->values->frame->view, &c->values->to_world);
+}
+
+static void put(const plr_matrix *m, float *out) {
+    plr_matrix_to_floats(m, out);
+}
+
+static void put_inverse(const plr_matrix *m, float *out) {
+    plr_matrix inverse;
+    plr_matrix_invert(m, &inverse);
+    put(&inverse, out);
+}
+
+static void v_model_view(const context *c, float *out) {
+    plr_matrix m = model_view(c);
+    put(&m, out);
+}
+static void v_inverse_model_view(const context *c, float *out) {
+    plr_matrix m = model_view(c);
+    put_inverse(&m, out);
+}
+static void v_normal(const context *c, float *out) {
+    plr_matrix m = model_view(c);
+    plr_matrix_to_normal_floats(&m, out);
+}
+static void v_projection(const context *c, float *out) {
+    put(&c->values->frame->projection, out);
+}
+static void v_inverse_projection(const context *c, float *out) {
+    put_inverse(&c->values->frame->projection, out);
+}
+static void v_view(const context *c, float *out) {
+    put(&c->values->frame->view, out);
+}
+static void v_inverse_view(const context *c, float *out) {
+    put_inverse(&c->values->frame->view, out);
+}
+static void v_model(const context *c, float *out) {
+    put(&c->values->to_world, out);
+}
+static void v_inverse_model(const context *c, float *out) {
+    put_inverse(&c->values->to_world, out);
+}
+static void v_viewport(const context *c, float *out) {
+    for (int i = 0; i < 4; i++)
+        out[i] = (float)c->values->frame->viewport[i];
+}
+static void v_viewport_size(const context *c, float *out) {
+    out[0] = (float)c->values->frame->viewport[2];
+    out[1] = (float)c->values->frame->viewport[3];
+}
+static void v_cut(const context *c, float *out) {
+    out[0] = (float)c->values->frame->cut[0];
+    out[1] = (float)fmin(c->values->frame->cut[1], 3e38);
+}
+static void v_time(const context *c, float *out) {
+    out[0] = (float)c->values->frame->time;
+}
+/* A ray ends where what is left is below an eighth of the error that one 8-bit step is. */
+static void v_transparency_left(const context *c, float *out) {
+    (void)c;
+    out[0] = 1.0f / 255.0f / 8.0f;
+}
+static void v_node_to_eye(const context *c, float *out) {
+    plr_matrix m = c->binding->to_world;
+    if (!c->binding->in_eye_space)
+        m = plr_matrix_multiply(&c->values->frame->view, &m);
+    put(&m, out);
+}
+static void v_eye_to_local(const context *c, float *out) {
+    plr_matrix m = plr_matrix_multiply(&c->values->frame->view, &c->volume->to_world);
+    put_inverse(&m, out);
+}
+static void v_dimensions(const context *c, float *out) {
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)c->volume->dimensions[i];
+}
+static void v_step(const context *c, float *out) {
+    out[0] = (float)c->volume->step;
+}
+static void v_reference(const context *c, float *out) {
+    out[0] = (float)c->volume->reference;
+}
+static void v_gradient_unit(const context *c, float *out) {
+    out[0] = (float)c->volume->gradient_unit;
+}
+
+static void v_volume_index(const context *c, float *out) {
+    out[0] = (float)c->volume->index;
+}
+
+typedef enum owner {
+    OWNER_HOST,   /* base and library */
+    OWNER_NODE,   /* a built-in effect with a node or the headlight */
+    OWNER_VOLUME, /* a built-in effect of a volume */
+} owner;
+
+static const struct known {
+    const char *name;
+    owner owner;
+    void (*value)(const context *, float *);
+} known[] = {
+    {"castle_ModelViewMatrix", OWNER_HOST, v_model_view},
+    {"castle_ProjectionMatrix", OWNER_HOST, v_projection},
+    {"castle_NormalMatrix", OWNER_HOST, v_normal},
+    {"plugray_ModelMatrix", OWNER_HOST, v_model},
+    {"plugray_InverseModelMatrix", OWNER_HOST, v_inverse_model},
+    {"plugray_ViewMatrix", OWNER_HOST, v_view},
+    {"plugray_InverseViewMatrix", OWNER_HOST, v_inverse_view},
+    {"plugray_ModelViewMatrix", OWNER_HOST, v_model_view},
+    {"plugray_InverseModelViewMatrix", OWNER_HOST, v_inverse_model_view},
+    {"plugray_ProjectionMatrix", OWNER_HOST, v_projection},
+    {"plugray_InverseProjectionMatrix", OWNER_HOST, v_inverse_projection},
+    {"plugray_NormalMatrix", OWNER_HOST, v_normal},
+    {"plugray_ViewportSize", OWNER_HOST, v_viewport_size},
+    {"plugray_Time", OWNER_HOST, v_time},
+    {"viewport", OWNER_HOST, v_viewport},
+    {"viewpointCut", OWNER_HOST, v_cut},
+    {"transparencyLeft", OWNER_HOST, v_transparency_left},
+    {"nodeToEye", OWNER_NODE, v_node_to_eye},
+    {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
+    {"dimensions", OWNER_VOLUME, v_dimensions},
+    {"sampleDistance", OWNER_VOLUME, v_step},
+    {"referenceLength", OWNER_VOLUME, v_reference},
+    {"gradientUnit", OWNER_VOLUME, v_gradient_unit},
+    {"volumeIndex", OWNER_VOLUME, v_volume_index},
+};
+
+static const struct known *find_known(const char *name, const plr_binding *binding) {
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        bool fits = known[i].owner == OWNER_HOST   ? !binding
+                    : known[i].owner == OWNER_NODE ? binding != NULL
+                                                   : binding && binding->volume != PLR_NO_EFFECT;
+        if (fits && strcmp(known[i].name, name) == 0)
+            return &known[i];
+    }
+    return NULL;
+}
+
+/* ---- Checks that need no GL
+ * ---------------------------------------------------------------------- */
+
+static bool is_word(char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+static bool text_has_word(const char *text, const char *word) {
+    size_t length = strlen(word);
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        if ((at == text || !is_word(at[-1])) && !is_word(at[length]))
+            return true;
+    return false;
+}
+
+static void warn_unused_fields(const plr_effect *effect, const plr_node *node, plr_diags *diags) {
+    if (strcmp(plr_node_string(node, "uniformMissing"), "IGNORE") == 0)
+        return;
+    for (size_t i = 0; i < plr_node_field_count(node); i++) {
+        const plr_field *field = plr_node_field_at(node, i);
+        bool found = !field->declared;
+        for (size_t s = 0; !found && s < effect->source_count; s++)
+            found = text_has_word(plr_source_text(effect->sources[s], NULL), field->name);
+        if (!found)
+            plr_diags_add(diags, PLR_CODE_UNUSED_FIELD, field->place,
+                          "no part of the effect has a uniform '%s'", field->name);
+    }
+}
+
+/* Whether the uniform fits; reports if not. */
+static bool check_symbol(const plr_symbol *symbol, const plr_node *node, plr_diags *diags) {
+    const plr_field *field = plr_node_field(node, symbol->name);
+    if (!field || !field->declared) {
+        if (!symbol->initialized)
+            plr_diags_add(diags, PLR_CODE_UNSET_UNIFORM, symbol->place,
+                          "the effect has no field '%s' to set this uniform", symbol->name);
+        return true;
+    }
+    if (field_fits(field, find_glsl_type(symbol->type), symbol->array != 0))
+        return true;
+    plr_diags_add(diags, PLR_CODE_UNIFORM_TYPE, field->place,
+                  "the field '%s' is %s, its uniform is %s%s", field->name,
+                  plr_type_name(field->type), symbol->type, symbol->array ? "[]" : "");
+    plr_diags_note(diags, symbol->place, "the uniform is declared here");
+    return false;
+}
+
+bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *diags) {
+    bool again = false;
+    for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
+        const plr_symbol *symbol = plr_program_symbol(program, i);
+        if (symbol->kind != PLR_UNIFORM)
+            continue;
+        if (symbol->effect == PLR_NO_EFFECT) {
+            if (recipe->base_node && !find_known(symbol->name, NULL))
+                check_symbol(symbol, recipe->base_node, diags);
+            continue;
+        }
+        if (recipe->effects.items[symbol->effect].builtin)
+            continue;
+        if (!check_symbol(symbol, recipe->bindings.items[symbol->effect].node, diags)) {
+            recipe->effects.items[symbol->effect].disabled = true;
+            again = true;
+        }
+    }
+    for (size_t i = 0; !again && i < recipe->effects.count; i++) {
+        const plr_effect *effect = &recipe->effects.items[i];
+        if (!effect->builtin && !effect->disabled)
+            warn_unused_fields(effect, recipe->bindings.items[i].node, diags);
+    }
+    return again;
+}
+
+/* ---- Slots
+ * -------------------------------------------------------------------------------------------- */
+
+struct plr_slot {
+    GLint location;
+    const struct glsl_type *type;
+    const plr_binding *binding;
+    const struct known *known;
+    const plr_field *field;
+    const plr_node *node; /* whose field it is */
+    size_t volume;        /* for `known` and the voxels */
+    uint32_t array;
+    enum {
+        SLOT_VALUE,
+        SLOT_FIELD,
+        SLOT_TEXTURE,
+        SLOT_VOXELS,
+        SLOT_DEFAULT_RAMP,
+        SLOT_OPAQUE_DEPTH
+    } source;
+    plr_texture *texture;
+    unsigned unit;
+    bool clamp;
+};
+
+/* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
+static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
+                        bool builtin, plr_slot *slot) {
+    if (slot->type->shape == SHAPE_SAMPLER && !binding) {
+        slot->source = SLOT_OPAQUE_DEPTH;
+        return strcmp(symbol->name, "opaqueDepth") == 0;
+    }
+    if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
+        strcmp(symbol->name, "voxels") == 0) {
+        slot->source = SLOT_VOXELS;
+        return true;
+    }
+    if (slot->type->shape == SHAPE_SAMPLER && builtin && strcmp(symbol->name, "self") == 0) {
+        slot->source = SLOT_TEXTURE;
+        slot->texture = plr_textures_get(k->textures, binding->node);
+        return slot->texture != NULL;
+    }
+    if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
+        strcmp(symbol->name, "transferFunction") == 0 &&
+        !(binding->node && plr_node_child(binding->node, symbol->name))) {
+        slot->source = SLOT_DEFAULT_RAMP;
+        return true;
+    }
+    if (!binding || builtin)
+        slot->known = find_known(symbol->name, binding);
+    if (slot->known) {
+        slot->source = SLOT_VALUE;
+        return true;
+    }
+    if (!binding || !binding->node)
+        return false;
+    slot->field = builtin ? field_by_path(binding->node, symbol->name)
+                          : plr_node_field(binding->node, symbol->name);
+    slot->source = SLOT_FIELD;
+    if (!slot->field || !field_fits(slot->field, slot->type, symbol->array != 0))
+        return false;
+    if (slot->type->shape != SHAPE_SAMPLER)
+        return true;
+    slot->source = SLOT_TEXTURE;
+    slot->clamp = builtin;
+    if (slot->field->count)
+        slot->texture = plr_textures_get(k->textures, slot->field->value.nodes[0]);
+    return slot->texture != NULL;
+}
+
+void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
+                   const plr_program *program, GLuint name, plr_slots *slots) {
+    unsigned units = 0;
+    for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
+        const plr_symbol *symbol = plr_program_symbol(program, i);
+        bool own = symbol->effect == PLR_NO_EFFECT;
+        const plr_binding *binding = own ? NULL : &recipe->bindings.items[symbol->effect];
+        if (own && recipe->base_node && !find_known(symbol->name, NULL)) {
+            plr_binding *base = PLR_NEW(k->arena, plr_binding); /* a complete shader's own fields */
+            *base = (plr_binding){.node = recipe->base_node, .volume = PLR_NO_EFFECT};
+            binding = base;
+        }
+        plr_slot slot = {.binding = binding,
+                         .array = symbol->array,
+                         .type = find_glsl_type(symbol->type),
+                         .volume = binding ? binding->volume : PLR_NO_EFFECT};
+        if (symbol->kind != PLR_UNIFORM || !slot.type)
+            continue;
+        slot.location = gl->GetUniformLocation(name, symbol->program);
+        bool builtin = !own && recipe->effects.items[symbol->effect].builtin;
+        if (slot.location < 0 || !find_source(k, symbol, binding, builtin, &slot))
+            continue;
+        if (slot.type->shape == SHAPE_SAMPLER)
+            slot.unit = units++;
+        *PLR_PUSH(k->arena, slots) = slot;
+    }
+}
+
+bool plr_bind_needs(const plr_slots *slots, const char *name) {
+    for (size_t i = 0; i < slots->count; i++)
+        if (slots->items[i].known && strcmp(slots->items[i].known->name, name) == 0)
+            return true;
+    return false;
+}
+
+static void set_floats(const plr_gl *gl, const plr_slot *slot, GLsizei count, const float *values,
+                       bool transpose) {
+    switch (slot->type->components) {
+    case 1:
+        gl->Uniform1fv(slot->location, count, values);
+        break;
+    case 2:
+        gl->Uniform2fv(slot->location, count, values);
+        break;
+    case 3:
+        gl->Uniform3fv(slot->location, count, values);
+        break;
+    case 4:
+        gl->Uniform4fv(slot->location, count, values);
+        break;
+    case 9:
+        gl->UniformMatrix3fv(slot->location, count, transpose, values);
+        break;
+    case 16:
+        gl->UniformMatrix4fv(slot->location, count, transpose, values);
+        break;
+    default:
+        break;
+    }
+}
+
+/* One element of a field as floats; a colour for a vec4 is opaque. */
+static void element_floats(const plr_field *field, size_t index, int wanted, float *out) {
+    int have = plr_type_components(field->type);
+    for (int c = 0; c < wanted; c++) {
+        size_t at = index * (size_t)have + (size_t)c;
+        if (c >= have)
+            out[c] = 1;
+        else
+            out[c] = plr_type_kind(field->type) == PLR_DOUBLE ? (float)field->value.doubles[at]
+                                                              : field->value.floats[at];
+    }
+}
+
+/* Matrix fields are written row by row (ISO/IEC 19776-1 5.14): GL transposes them. */
+static void set_field(const plr_gl *gl, const plr_slot *slot) {
+    const plr_field *field = slot->field;
+    size_t count = slot->array ? field->count : 1;
+    if (slot->array && count > slot->array)
+        count = slot->array;
+    for (size_t i = 0; i < count && i < field->count; i++) {
+        plr_slot one = *slot;
+        one.location += (GLint)i;
+        float values[16];
+        if (slot->type->shape == SHAPE_INT) {
+            bool is_bool = plr_type_kind(field->type) == PLR_BOOL;
+            GLint value = is_bool ? field->value.bools[i] : field->value.ints[i];
+            gl->Uniform1i(one.location, value);
+        } else {
+            element_floats(field, i, slot->type->components, values);
+            set_floats(gl, &one, 1, values, slot->type->shape == SHAPE_MATRIX);
+        }
+    }
+}
+
+static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_slot *slot,
+                     const plr_values *values) {
+    const plr_volume_state *volume =
+        slot->volume < values->volume_count ? &values->volumes[slot->volume] : NULL;
+    float numbers[16];
+    switch (slot->source) {
+    case SLOT_VALUE:
+        slot->known->value(&(context){values, slot->binding, volume}, numbers);
+        if (slot->type->shape == SHAPE_INT)
+            gl->Uniform1i(slot->location, (GLint)numbers[0]);
+        else
+            set_floats(gl, slot, 1, numbers, false);
+        return;
+    case SLOT_FIELD:
+        set_field(gl, slot);
+        return;
+    case SLOT_VOXELS:
+        if (volume)
+            plr_texture_bind(textures, volume->voxels, slot->unit, true);
+        break;
+    case SLOT_TEXTURE:
+        plr_texture_bind(textures, slot->texture, slot->unit, slot->clamp);
+        break;
+    case SLOT_DEFAULT_RAMP:
+        plr_texture_bind(textures, values->default_ramp, slot->unit, true);
+        break;
+    case SLOT_OPAQUE_DEPTH:
+        gl->ActiveTexture(GL_TEXTURE0 + slot->unit);
+        gl->BindTexture(GL_TEXTURE_2D, values->frame->opaque_depth);
+        gl->BindSampler(slot->unit, 0);
+        break;
+    }
+    gl->Uniform1i(slot->location, (GLint)slot->unit);
+}
+
+void plr_bind_set(const plr_gl *gl, const plr_textures *textures, const plr_slots *slots,
+                  const plr_values *values) {
+    for (size_t i = 0; i < slots->count; i++)
+        set_slot(gl, textures, &slots->items[i], values);
+}

@@ -1,0 +1,60 @@
+/* Uniforms: from fields, from the frame, from the volume. */
+#ifndef PLR_ENGINE_BIND_H
+#define PLR_ENGINE_BIND_H
+
+#include "engine/compose.h"
+
+/* What every program of one picture shares. */
+typedef struct plr_frame {
+    plr_matrix projection, view;
+    double viewport[4]; /* x, y, width, height in pixels */
+    double cut[2];      /* the viewpoint's own near and far distance, or 0 and infinity */
+    double time;
+    GLuint opaque_depth; /* depth texture of opaque surfaces, 0: none */
+} plr_frame;
+
+/* A volume made ready. */
+typedef struct plr_volume_state {
+    plr_node *node;
+    plr_matrix to_world;
+    double dimensions[3];
+    double voxel;         /* geometric mean of a voxel's sides, own coordinates */
+    double reference;     /* reference length of opacity */
+    double gradient_unit; /* 0: not asked for yet */
+    double step;          /* sample distance, own coordinates */
+    size_t index;
+    plr_texture *voxels;
+} plr_volume_state;
+
+/* Everything that the value of a uniform may depend on. */
+typedef struct plr_values {
+    const plr_frame *frame;
+    plr_matrix to_world; /* of what is drawn */
+    const plr_volume_state *volumes;
+    size_t volume_count;
+    const plr_texture *default_ramp; /* what a transfer function of NULL stands for */
+} plr_values;
+
+/* One uniform of a GL program and where its value comes from. */
+typedef struct plr_slot plr_slot;
+
+typedef struct plr_slots {
+    plr_slot *items;
+    size_t count, capacity;
+} plr_slots;
+
+/* Compares the fields of authors' effects with the uniforms of the program: an effect whose types
+ * differ is reported and disabled (then true is returned: link again); partners that lack are
+ * warned of. No GL. */
+bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *diags);
+
+/* Finds the locations. Needs GL. */
+void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *recipe,
+                   const plr_program *program, GLuint name, plr_slots *slots);
+/* Whether any slot takes a value that the engine knows by this name ("gradientUnit"). */
+bool plr_bind_needs(const plr_slots *slots, const char *name);
+/* Sets all uniforms of the program in use and binds its textures. Needs GL. */
+void plr_bind_set(const plr_gl *gl, const plr_textures *textures, const plr_slots *slots,
+                  const plr_values *values);
+
+#endif

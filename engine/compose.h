@@ -1,0 +1,38 @@
+/* From a recipe to a program that compiles: links, asks the compilers, leaves faulty effects out.
+ */
+#ifndef PLR_ENGINE_COMPOSE_H
+#define PLR_ENGINE_COMPOSE_H
+
+#include "engine/cache.h"
+#include "engine/recipe.h"
+
+/* A distinct program: drawables whose texts are equal share it. */
+typedef struct plr_built {
+    plr_program_info info;
+    GLuint name; /* 0 without GL */
+    uint64_t hash;
+} plr_built;
+
+typedef struct plr_composer {
+    plr_kitchen *kitchen;
+    plr_cache *cache; /* NULL: no GL, glslang only */
+    bool check_unreached;
+    plr_diags *diags;
+    struct {
+        plr_built **items;
+        size_t count, capacity;
+    } built;
+    double link_cpu_ms, link_wall_ms, compile_cpu_ms, compile_wall_ms;
+} plr_composer;
+
+/* Composes; `kind` ("volume", "surface") begins the program's name. Faulty effects of the recipe
+ * are marked disabled. The program of `built` is `*program` or one of equal text; both are owned by
+ * the composer. NULL if base and built-in effects alone do not compile (reported). */
+plr_built *plr_compose(plr_composer *composer, plr_recipe *recipe, const char *kind,
+                       const plr_program **program);
+void plr_composer_finish(plr_composer *composer);
+
+/* CPU time of all threads and wall time since some start, in milliseconds. */
+plr_phase plr_clock(void);
+
+#endif

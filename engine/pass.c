@@ -1,0 +1,40 @@
+/* What volumes and surfaces have in common: lights, and the way from program to uniforms. */
+#include "engine/view.h"
+
+static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light, size_t attached,
+                      size_t volume) {
+    const char *type = light->node ? plr_node_type(light->node) : "DirectionalLight";
+    plr_recipe_builtin(&view->kitchen, recipe, plr_arena_format(&view->arena, "lights/%s", type),
+                       type,
+                       (plr_binding){.node = light->node,
+                                     .to_world = light->to_world,
+                                     .in_eye_space = !light->node,
+                                     .volume = volume},
+                       attached, NULL, 0);
+}
+
+void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,
+                     size_t volume) {
+    for (; scope; scope = scope->outer)
+        for (size_t i = 0; i < scope->lights.count; i++)
+            add_light(view, recipe, &scope->lights.items[i], attached, volume);
+    for (size_t i = 0; i < view->flat.global_lights.count; i++)
+        add_light(view, recipe, &view->flat.global_lights.items[i], attached, volume);
+}
+
+void plr_pass_light_authors(plr_view *view, plr_recipe *recipe) {
+    size_t count = recipe->effects.count;
+    for (size_t i = 0; i < count; i++) {
+        plr_binding binding = recipe->bindings.items[i];
+        const plr_node_info *info =
+            binding.node ? plr_node_info_find(plr_node_type(binding.node)) : NULL;
+        if (info && plr_node_info_is(info, "X3DLightNode"))
+            plr_recipe_author_list(&view->kitchen, recipe, binding.node, i + 1, binding.volume);
+    }
+}
+
+void plr_pass_find(plr_view *view, plr_pass *pass) {
+    if (pass->built)
+        plr_bind_find(&view->kitchen, &view->engine->gl, &pass->recipe, pass->program,
+                      pass->built->name, &pass->slots);
+}

@@ -1,0 +1,226 @@
+#include "engine/recipe.h"
+
+#include <ctype.h>
+#include <string.h>
+
+typedef struct define_list {
+    plr_define *items;
+    size_t count, capacity;
+} define_list;
+
+static void push_define(plr_arena *arena, define_list *list, const char *name, const char *value) {
+    *PLR_PUSH(arena, list) = (plr_define){name, value};
+}
+
+/* A field's string value as the tail of a macro name: letters, digits and underscores. */
+static char *macro_tail(plr_arena *arena, const char *text) {
+    char *tail = plr_arena_copy(arena, text, strlen(text));
+    for (char *c = tail; *c; c++)
+        if (!isalnum((unsigned char)*c))
+            *c = '_';
+    return tail;
+}
+
+/* The macros that the conditionals of a built-in effect see; effects/README.md lists them. */
+static void field_defines(plr_kitchen *k, define_list *list, const plr_node *node,
+                          const char *prefix, int depth) {
+    plr_arena *arena = k->arena;
+    for (size_t i = 0; i < plr_node_field_count(node); i++) {
+        const plr_field *field = plr_node_field_at(node, i);
+        const char *path = plr_arena_format(arena, "%s%s", prefix, field->name);
+        const plr_node *child;
+        plr_texture *texture;
+        switch (plr_type_kind(field->type)) {
+        case PLR_BOOL:
+            if (field->type == PLR_SFBOOL)
+                push_define(arena, list, path, field->value.bools[0] ? "1" : "0");
+            break;
+        case PLR_STRING:
+            if (field->type == PLR_SFSTRING && field->value.strings[0].length < 64)
+                push_define(arena, list,
+                            plr_arena_format(arena, "%s_%s", path,
+                                             macro_tail(arena, field->value.strings[0].text)),
+                            "1");
+            break;
+        case PLR_NODE:
+            child = field->count ? field->value.nodes[0] : NULL;
+            push_define(arena, list, plr_arena_format(arena, "HAS_%s", path), child ? "1" : "0");
+            if (!child) {
+                push_define(arena, list, plr_arena_format(arena, "%s_DIMENSIONS", path), "0");
+                push_define(arena, list, plr_arena_format(arena, "%s_COMPONENTS", path), "0");
+            }
+            if (!child || strcmp(field->name, "metadata") == 0)
+                break;
+            push_define(arena, list, plr_arena_format(arena, "%s_%s", path, plr_node_type(child)),
+                        "1");
+            texture = plr_textures_get(k->textures, child);
+            if (texture) {
+                push_define(arena, list, plr_arena_format(arena, "%s_DIMENSIONS", path),
+                            plr_arena_format(arena, "%d", texture->dimensions));
+                push_define(arena, list, plr_arena_format(arena, "%s_COMPONENTS", path),
+                            plr_arena_format(arena, "%u", texture->components));
+            } else if (depth > 0) {
+                field_defines(k, list, child, plr_arena_format(arena, "%s_", path), depth - 1);
+            }
+            break;
+        default:
+            break;
+        }
+    }
+}
+
+void plr_recipe_define(plr_kitchen *k, plr_recipe *recipe, const char *name, int value) {
+    *PLR_PUSH(k->arena, &recipe->defines) =
+        (plr_define){name, plr_arena_format(k->arena, "%d", value)};
+}
+
+static size_t push_effect(plr_kitchen *k, plr_recipe *recipe, plr_effect effect,
+                          plr_binding binding) {
+    *PLR_PUSH(k->arena, &recipe->effects) = effect;
+    *PLR_PUSH(k->arena, &recipe->bindings) = binding;
+    return recipe->effects.count;
+}
+
+size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, const char *name,
+                          plr_binding binding, size_t attached, const plr_define *extra,
+                          size_t extra_count) {
+    const plr_sources *units = plr_catalog_units(k->catalog, path);
+    if (!units->count)
+        return 0;
+    define_list defines = {0};
+    for (size_t i = 0; i < extra_count; i++)
+        *PLR_PUSH(k->arena, &defines) = extra[i];
+    if (binding.node)
+        field_defines(k, &defines, binding.node, "", 1);
+    plr_effect effect = {.name = name,
+                         .sources = units->items,
+                         .source_count = units->count,
+                         .defines = defines.items,
+                         .define_count = defines.count,
+                         .attached = attached,
+                         .builtin = true};
+    if (binding.node)
+        effect.place = plr_node_place(binding.node);
+    return push_effect(k, recipe, effect, binding);
+}
+
+static const struct {
+    const char *type;
+    plr_stage stage;
+} part_types[] = {{"VERTEX", PLR_VERTEX}, {"GEOMETRY", PLR_GEOMETRY}, {"FRAGMENT", PLR_FRAGMENT}};
+
+static plr_stage part_stage(plr_kitchen *k, const plr_node *part) {
+    const char *type = plr_node_string(part, "type");
+    for (size_t i = 0; i < sizeof part_types / sizeof *part_types; i++)
+        if (strcmp(type, part_types[i].type) == 0)
+            return part_types[i].stage;
+    plr_diags_add_as(k->diags, PLR_WARNING, PLR_CODE_BAD_VALUE, plr_node_field(part, "type")->place,
+                     "'%s' is no type of shader part; VERTEX is taken", type);
+    return PLR_VERTEX;
+}
+
+static const plr_source *part_source(plr_kitchen *k, const plr_node *part) {
+    for (size_t i = 0; i < k->part_count; i++)
+        if (k->parts[i].node == part)
+            return k->parts[i].source;
+    k->parts =
+        plr_arena_grow(k->arena, k->parts, &k->part_capacity, k->part_count + 1, sizeof *k->parts);
+    struct part *slot = &k->parts[k->part_count++];
+    *slot = (struct part){part, NULL};
+    plr_string code;
+    if (plr_scene_code(k->scene, part, "url", &code, k->diags))
+        slot->source = plr_source_read(part_stage(k, part), code.text, code.length, &code.origin,
+                                       NULL, k->diags);
+    return slot->source;
+}
+
+void plr_kitchen_finish(plr_kitchen *kitchen) {
+    for (size_t i = 0; i < kitchen->part_count; i++)
+        plr_source_destroy(&kitchen->parts[i].source);
+    kitchen->part_count = 0;
+}
+
+static void collect_parts(plr_kitchen *k, const plr_node *owner, plr_sources *sources) {
+    const plr_field *parts = plr_node_field(owner, "parts");
+    for (size_t i = 0; parts && i < parts->count; i++) {
+        const plr_source *source =
+            parts->value.nodes[i] ? part_source(k, parts->value.nodes[i]) : NULL;
+        if (source)
+            *PLR_PUSH(k->arena, sources) = source;
+    }
+}
+
+static bool is_glsl(plr_kitchen *k, const plr_node *node) {
+    const plr_field *language = plr_node_field(node, "language");
+    const char *text = plr_node_string(node, "language");
+    if (!*text || strcmp(text, "GLSL") == 0)
+        return true;
+    plr_diags_add(k->diags, PLR_CODE_LANGUAGE, language->place,
+                  "the language '%s' is not GLSL; the %s is left out", text, plr_node_type(node));
+    return false;
+}
+
+static const struct {
+    const char *text;
+    plr_placement placement;
+} placements[] = {{"ADD_AFTER", PLR_ADD_AFTER},
+                  {"ADD_BEFORE", PLR_ADD_BEFORE},
+                  {"REPLACE", PLR_REPLACE},
+                  {"REMOVE", PLR_REMOVE}};
+
+static bool read_placement(plr_kitchen *k, const plr_node *node, plr_placement *placement) {
+    const char *text = plr_node_string(node, "placement");
+    *placement = PLR_ADD_AFTER;
+    if (!*text)
+        return true;
+    for (size_t i = 0; i < sizeof placements / sizeof *placements; i++)
+        if (strcmp(text, placements[i].text) == 0) {
+            *placement = placements[i].placement;
+            return true;
+        }
+    plr_diags_add(k->diags, PLR_CODE_BAD_VALUE, plr_node_field(node, "placement")->place,
+                  "'%s' is no placement: ADD_AFTER, ADD_BEFORE, REPLACE or REMOVE", text);
+    return false;
+}
+
+void plr_recipe_author(plr_kitchen *k, plr_recipe *recipe, plr_node *node, size_t attached,
+                       size_t volume) {
+    plr_placement placement;
+    if (!node || !plr_node_is(node, "Effect") || !plr_node_bool(node, "enabled") ||
+        !is_glsl(k, node) || !read_placement(k, node, &placement))
+        return;
+    plr_sources sources = {0};
+    collect_parts(k, node, &sources);
+    const char *def = plr_node_def(node);
+    plr_effect effect = {.name = def ? def : "Effect",
+                         .sources = sources.items,
+                         .source_count = sources.count,
+                         .attached = attached,
+                         .placement = placement,
+                         .target = plr_node_string(node, "target"),
+                         .only_if_active = plr_node_bool(node, "onlyIfActive"),
+                         .place = plr_node_place(node)};
+    push_effect(k, recipe, effect,
+                (plr_binding){.node = node, .to_world = plr_matrix_identity(), .volume = volume});
+}
+
+void plr_recipe_author_list(plr_kitchen *k, plr_recipe *recipe, const plr_node *owner,
+                            size_t attached, size_t volume) {
+    const plr_field *effects = plr_node_field(owner, "effects");
+    for (size_t i = 0; effects && i < effects->count; i++)
+        plr_recipe_author(k, recipe, effects->value.nodes[i], attached, volume);
+}
+
+void plr_recipe_groups(plr_kitchen *k, plr_recipe *recipe, const plr_scope *scope, size_t attached,
+                       size_t volume) {
+    for (; scope; scope = scope->outer)
+        for (size_t i = 0; i < scope->effects.count; i++)
+            plr_recipe_author(k, recipe, scope->effects.items[i], attached, volume);
+}
+
+bool plr_recipe_shader_base(plr_kitchen *k, plr_recipe *recipe, plr_node *shader) {
+    if (!is_glsl(k, shader))
+        return false;
+    collect_parts(k, shader, &recipe->base);
+    return recipe->base.count > 0;
+}

@@ -1,0 +1,52 @@
+#include "engine/report.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+/* "plr12_noise" in a message of linking, that has no line, tells which effect it is about. */
+static size_t effect_in_words(const char *text, size_t effect_count) {
+    for (const char *at = text; (at = strstr(at, "plr")); at++) {
+        unsigned number;
+        int used = 0;
+        if ((at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '_')) &&
+            sscanf(at, "plr%9u%n", &number, &used) == 1 && (at[used] == '_' || at[used] == 'u') &&
+            number < effect_count)
+            return number;
+    }
+    return PLR_NO_EFFECT;
+}
+
+size_t plr_report_locate(const plr_report *report, const plr_glsl_message *message,
+                         plr_mapped *mapped) {
+    *mapped = (plr_mapped){.effect = PLR_NO_EFFECT};
+    size_t effect_count = report->recipe->effects.count;
+    if (report->stage == PLR_STAGE_COUNT || !message->line) {
+        size_t effect = effect_in_words(message->text, effect_count);
+        if (effect != PLR_NO_EFFECT)
+            mapped->place = report->recipe->effects.items[effect].place;
+        return mapped->effect = effect;
+    }
+    uint32_t column = message->column;
+    if (!column && message->word)
+        column = plr_program_find_word(report->program, report->stage, message->line, message->word,
+                                       strlen(message->word));
+    if (!plr_program_map(report->program, report->stage, message->line, column, mapped))
+        return PLR_NO_EFFECT;
+    if (mapped->effect == PLR_NO_EFFECT && !mapped->place.file)
+        mapped->effect = effect_in_words(message->text, effect_count);
+    return mapped->effect;
+}
+
+void plr_report_add(const plr_report *report, const plr_glsl_message *message, plr_diags *diags) {
+    plr_mapped mapped;
+    size_t effect = plr_report_locate(report, message, &mapped);
+    char text[1024];
+    plr_program_demangle(report->program, message->text, text, sizeof text);
+    plr_severity severity = report->code == PLR_CODE_UNREACHED ? PLR_WARNING : message->severity;
+    plr_diags_add_as(diags, severity, report->code, mapped.place, "%s", text);
+    const char *name = effect == PLR_NO_EFFECT ? NULL : report->recipe->effects.items[effect].name;
+    if (mapped.socket_call)
+        plr_diags_note(diags, mapped.plug_place, "called at this plug%s%s", name ? " for " : "",
+                       name ? name : "");
+}

@@ -1,0 +1,74 @@
+/* The scene graph flattened: what is drawn, where, lit and affected by what. No GL. */
+#ifndef PLR_ENGINE_TRAVERSE_H
+#define PLR_ENGINE_TRAVERSE_H
+
+#include <plugray/engine.h>
+#include "base/arena.h"
+#include "engine/matrix.h"
+
+typedef struct plr_light {
+    plr_node *node; /* NULL: the headlight */
+    plr_matrix to_world;
+} plr_light;
+
+typedef struct plr_lights {
+    plr_light *items;
+    size_t count, capacity;
+} plr_lights;
+
+typedef struct plr_nodes {
+    plr_node **items;
+    size_t count, capacity;
+} plr_nodes;
+
+/* What a group gives to everything inside it, siblings before included. */
+typedef struct plr_scope {
+    const struct plr_scope *outer; /* NULL at the top level */
+    plr_lights lights;             /* with global FALSE */
+    plr_nodes effects;
+} plr_scope;
+
+/* A volume or a shape in its place. */
+typedef struct plr_leaf {
+    plr_node *node;
+    plr_matrix to_world;
+    const plr_scope *scope;
+} plr_leaf;
+
+typedef struct plr_leaves {
+    plr_leaf *items;
+    size_t count, capacity;
+} plr_leaves;
+
+typedef struct plr_viewpoint {
+    plr_node *node;      /* NULL: the standard's default */
+    plr_matrix to_world; /* without scale */
+} plr_viewpoint;
+
+typedef struct plr_flat {
+    plr_leaves volumes, shapes;
+    plr_lights global_lights; /* the headlight among them */
+    struct {
+        plr_viewpoint *items;
+        size_t count, capacity;
+    } viewpoints;
+    plr_node *background, *navigation; /* the first of each, or NULL */
+    plr_matrix background_to_world;
+} plr_flat;
+
+/* Flattens the scene; everything is allocated in the arena. Nodes that cannot be drawn yet give a
+ * `not-drawn` warning. */
+void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags);
+
+/* The viewpoint that `selector` names: NULL or "" the first, a number from 1, a DEF name, a
+ * description; NULL if there is none such. */
+const plr_viewpoint *plr_flat_viewpoint(const plr_flat *flat, const char *selector);
+
+/* Projection and world -> eye for a picture of this shape. near and far must hold the depths of
+ * what is drawn with a depth buffer; the viewpoint's own distances override them. */
+void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double height,
+                            const double depths[2], plr_matrix *projection, plr_matrix *view);
+/* The cut that the viewpoint asks for: its nearDistance and farDistance, or 0 and INFINITY. */
+void plr_viewpoint_cut(const plr_viewpoint *viewpoint, double cut[2]);
+
+#endif

@@ -1,0 +1,84 @@
+/* The insides of a plr_view, shared by the passes that draw it. */
+#ifndef PLR_ENGINE_VIEW_H
+#define PLR_ENGINE_VIEW_H
+
+#include "engine/bind.h"
+#include "engine/framebuffer.h"
+#include "engine/mesh.h"
+#include "engine/traverse.h"
+
+struct plr_engine {
+    plr_gl gl;
+    plr_cache *cache;
+    plr_catalog *catalog;
+};
+
+/* A program with everything that it needs to run. */
+typedef struct plr_pass {
+    plr_recipe recipe;
+    plr_built *built; /* NULL: nothing is drawn */
+    const plr_program *program;
+    plr_slots slots;
+} plr_pass;
+
+typedef struct plr_volume_pass {
+    plr_pass pass;
+    plr_volume_state *volumes;
+    size_t count;
+    plr_texture *default_ramp;
+} plr_volume_pass;
+
+typedef struct plr_surface {
+    plr_pass pass;
+    plr_matrix to_world;
+    plr_mesh mesh;
+    bool blends;
+    double depth; /* of the centre, in this frame */
+    GLuint vertex_array, buffers[40];
+    int buffer_count;
+} plr_surface;
+
+struct plr_view {
+    plr_arena arena;
+    plr_engine *engine; /* NULL: nothing is drawn, only checked */
+    plr_catalog *own_catalog;
+    plr_scene *scene;
+    plr_view_desc desc;
+    plr_flat flat;
+    const plr_viewpoint *viewpoint;
+    plr_textures textures;
+    plr_kitchen kitchen;
+    plr_composer composer;
+    plr_volume_pass volumes;
+    plr_surface *surfaces;
+    size_t surface_count;
+    plr_framebuffer framebuffer;
+    GLuint color_only, empty_vertex_array;
+    plr_view_stats stats;
+};
+
+/* ---- Making passes ready
+ * -------------------------------------------------------------------------- */
+
+void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
+void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
+/* Locations, once textures are loaded and GL is there. */
+void plr_pass_find(plr_view *view, plr_pass *pass);
+/* The lights that reach a leaf, as built-in effects with their authors' effects to follow. */
+void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,
+                     size_t volume);
+void plr_pass_light_authors(plr_view *view, plr_recipe *recipe);
+
+/* ---- Drawing
+ * ---------------------------------------------------------------------------------------- */
+
+void plr_volume_pass_draw(plr_view *view, const plr_frame *frame);
+/* Samples along all rays of this frame when none ends early. */
+double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame);
+void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame);
+/* Bounds of the surfaces along the view direction: least and greatest distance from the eye's
+ * plane. */
+void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, double depths[2]);
+void plr_surface_finish(plr_view *view, plr_surface *surface);
+
+#endif
