@@ -303,6 +303,7 @@ static void test_aliases(void) {
     }
     CHECK_STR(plr_node_info_find("CompositeVolumeStyle")->name, "ComposedVolumeStyle");
     CHECK_STR(plr_node_info_find("KambiAppearance")->name, "Appearance");
+    CHECK_STR(plr_node_info_find("ISOVolumeStyle")->name, "ISOSurfaceVolumeStyle");
 }
 
 static void test_types(void) {
