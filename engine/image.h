@@ -26,6 +26,10 @@ bool plr_image_decode(const char *data, size_t length, plr_place place, plr_imag
  * (components, width, height, depth, pixels) as the scene holds it. */
 bool plr_image_from_sfimage(const plr_field *field, plr_image *image, plr_diags *diags);
 bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags *diags);
+/* From a texture node of two dimensions: ImageTexture (the first url that loads), PixelTexture.
+ * Needs the scene reader. */
+bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,
+                            plr_diags *diags);
 /* The sample (x, y, z, component) as a number, 0..1 for UNORM types. */
 double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
 void plr_image_free(plr_image *image);

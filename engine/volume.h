@@ -19,6 +19,15 @@ typedef enum plr_voxel_type {
     PLR_VOXEL_F64
 } plr_voxel_type;
 
+/* Which way the axes of the file's space run, where it says: x to the patient's right or left, y to
+ * the front or back, z up. */
+typedef enum plr_volume_space {
+    PLR_SPACE_UNKNOWN,
+    PLR_SPACE_RAS, /* right, anterior, superior: NIfTI */
+    PLR_SPACE_LAS, /* left, anterior, superior */
+    PLR_SPACE_LPS  /* left, posterior, superior: DICOM */
+} plr_volume_space;
+
 /* Voxels as the file stores them (native byte order), first axis fastest, components innermost.
  * physical value = stored * slope + intercept. */
 typedef struct plr_volume {
@@ -28,19 +37,21 @@ typedef struct plr_volume {
     void *voxels; /* owned */
     double slope, intercept;
     /* The range that maps to 0..1 in physical units: what the file declares (NRRD min/max, NIfTI
-     * cal_min/cal_max), else the least and greatest finite value of the data (all components). 8-bit
-     * data without slope from textures: 0..255. */
+     * cal_min/cal_max), else the least and greatest finite value of the data (all components).
+     * 8-bit data without slope from textures: 0..255. */
     double minimum, maximum;
     bool range_declared;
     bool has_geometry; /* directions and origin come from the file, millimetres or as units says */
     double directions[3][3]; /* the step from voxel to voxel along axis i, in file space units */
     double origin[3];        /* centre of voxel (0,0,0) */
     double metres;           /* per unit of directions and origin; 0 if the file does not say */
+    plr_volume_space space;
 } plr_volume;
 
-/* Reads NRRD or NIfTI-1 from the bytes of a file (gunzipped or not) that the scene loaded; a detached
- * header's data files are loaded beside it through the scene's rules. The place is that of the url;
- * faults in a text header are reported at the header's own line (file = name of the bytes). */
+/* Reads NRRD or NIfTI-1 from the bytes of a file (gunzipped or not) that the scene loaded; a
+ * detached header's data files are loaded beside it through the scene's rules. The place is that of
+ * the url; faults in a text header are reported at the header's own line (file = name of the
+ * bytes). */
 bool plr_volume_read(plr_scene *scene, const plr_bytes *bytes, plr_place place, plr_volume *volume,
                      plr_diags *diags);
 /* From a texture node: ImageTexture3D (url), PixelTexture3D, ComposedTexture3D. */
@@ -51,9 +62,9 @@ void plr_volume_free(plr_volume *volume);
 /* Stored value of a voxel as a physical number. */
 double plr_volume_value(const plr_volume *volume, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
 
-/* The voxels as texture samples in 0..1: linear from range[0]..range[1] (physical; equal: the volume's
- * minimum..maximum), clamped, NaN as 0. UNORM16 for 8-bit data whose range is 0..255 (value * 257,
- * exact), FLOAT32 otherwise. NULL-safe, false without memory. */
+/* The voxels as texture samples in 0..1: linear from range[0]..range[1] (physical; equal: the
+ * volume's minimum..maximum), clamped, NaN as 0. UNORM16 for 8-bit data whose range is 0..255
+ * (value * 257, exact), FLOAT32 otherwise. NULL-safe, false without memory. */
 bool plr_volume_to_image(const plr_volume *volume, const double range[2], plr_image *image);
 
 /* The 99th percentile of the non-zero magnitudes of the gradient at voxel centres of component mean
