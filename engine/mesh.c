@@ -1,0 +1,89 @@
+#include "engine/mesh_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void *plr_mesh_array(plr_arena *arena, size_t count, size_t size) {
+    void *array = count <= SIZE_MAX / size ? calloc(count ? count : 1, size) : NULL;
+    if (!array)
+        longjmp(*arena->out_of_memory, 1);
+    return array;
+}
+
+static void find_bounds(plr_mesh *mesh) {
+    for (int axis = 0; axis < 3; axis++) {
+        mesh->bounds[0][axis] = INFINITY;
+        mesh->bounds[1][axis] = -INFINITY;
+    }
+    for (size_t i = 0; i < (size_t)mesh->vertex_count * 3; i++) {
+        float value = mesh->positions[i];
+        if (value < mesh->bounds[0][i % 3])
+            mesh->bounds[0][i % 3] = value;
+        if (value > mesh->bounds[1][i % 3])
+            mesh->bounds[1][i % 3] = value;
+    }
+}
+
+/* Whether the node has the SFBool field and it is FALSE. */
+static bool is_false(const plr_node *node, const char *name) {
+    const plr_field *field = plr_node_field(node, name);
+    return field && field->type == PLR_SFBOOL && !field->value.bools[0];
+}
+
+static bool build(plr_arena *arena, const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
+    mesh->two_sided = is_false(geometry, "solid");
+    mesh->clockwise = is_false(geometry, "ccw");
+    if (plr_mesh_is_polygons(geometry)) {
+        plr_polygons polygons = {.arena = arena, .node = geometry, .diags = diags};
+        if (!plr_polygons_read(&polygons) || !plr_polygons_emit(&polygons, mesh))
+            return false;
+    } else if (!plr_mesh_shape(arena, geometry, mesh)) {
+        plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(geometry),
+                      "plugray does not draw %s yet", plr_node_type(geometry));
+        return false;
+    }
+    if (!mesh->vertex_count)
+        return false;
+    find_bounds(mesh);
+    for (int i = 0; i < 6; i++)
+        if (!isfinite(mesh->bounds[i / 3][i % 3])) {
+            plr_diags_add(diags, PLR_CODE_BAD_GEOMETRY, plr_node_place(geometry),
+                          "the size of the %s is not finite", plr_node_type(geometry));
+            return false;
+        }
+    return true;
+}
+
+bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
+    memset(mesh, 0, sizeof *mesh);
+    plr_arena arena;
+    jmp_buf out_of_memory;
+    plr_arena_init(&arena, NULL, &out_of_memory);
+    if (setjmp(out_of_memory)) {
+        plr_arena_finish(&arena);
+        plr_mesh_free(mesh);
+        plr_diags_add(diags, PLR_CODE_NO_MEMORY, plr_node_place(geometry), "no memory for the %s",
+                      plr_node_type(geometry));
+        return false;
+    }
+    bool built = build(&arena, geometry, mesh, diags);
+    plr_arena_finish(&arena);
+    if (!built)
+        plr_mesh_free(mesh);
+    return built;
+}
+
+void plr_mesh_free(plr_mesh *mesh) {
+    free(mesh->positions);
+    free(mesh->normals);
+    free(mesh->tex_coords);
+    free(mesh->colors);
+    for (size_t i = 0; i < mesh->attribute_count; i++) {
+        free(mesh->attributes[i].name);
+        free(mesh->attributes[i].values);
+    }
+    free(mesh->attributes);
+    free(mesh->indices);
+    memset(mesh, 0, sizeof *mesh);
+}

@@ -1,0 +1,181 @@
+#include "engine/mesh_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps that all concave polygons of one node may take together: some seconds at most. */
+#define CLIPPING_BUDGET (UINT64_C(1) << 29)
+
+/* Vertices so far: equal corners become one. */
+typedef struct vertices {
+    plr_polygons *polygons;
+    plr_corner *items;
+    uint32_t count;
+    uint32_t *table; /* vertex plus 1; 0: empty */
+    size_t mask;
+} vertices;
+
+static bool same_corner(const plr_corner *a, const plr_corner *b) {
+    return a->coord == b->coord && a->normal == b->normal && a->color == b->color &&
+           a->tex == b->tex;
+}
+
+static uint64_t mix(uint64_t hash, uint64_t value) {
+    hash = (hash ^ value) * UINT64_C(0x9e3779b97f4a7c15);
+    return hash ^ hash >> 29;
+}
+
+static uint32_t vertex_of(vertices *v, const plr_corner *corner) {
+    uint64_t hash =
+        mix(mix((uint64_t)corner->coord << 32 | corner->normal, corner->color), corner->tex);
+    size_t slot = (size_t)(hash >> 8) & v->mask;
+    for (; v->table[slot]; slot = (slot + 1) & v->mask)
+        if (same_corner(&v->items[v->table[slot] - 1], corner))
+            return v->table[slot] - 1;
+    v->items[v->count] = *corner;
+    v->table[slot] = ++v->count;
+    return v->count - 1;
+}
+
+/* Indices that a face gives. */
+static size_t index_count(const plr_polygons *polygons, const plr_face *face) {
+    switch (polygons->kind) {
+    case PLR_MESH_TRIANGLES:
+        return ((size_t)face->count - 2) * 3;
+    case PLR_MESH_LINES:
+        return ((size_t)face->count - 1) * 2;
+    case PLR_MESH_POINTS:
+        break;
+    }
+    return face->count;
+}
+
+/* Corner numbers in the place of indices. */
+static void cut_face(plr_polygons *polygons, plr_clipper *clipper, const plr_face *face,
+                     uint32_t *indices) {
+    uint32_t n = face->count;
+    if (polygons->kind == PLR_MESH_POINTS) {
+        for (uint32_t i = 0; i < n; i++)
+            indices[i] = i;
+    } else if (polygons->kind == PLR_MESH_LINES) {
+        for (uint32_t i = 0; i + 1 < n; i++) {
+            indices[2 * (size_t)i] = i;
+            indices[2 * (size_t)i + 1] = i + 1;
+        }
+    } else if (polygons->concave && n > 3) {
+        plr_triangulate(clipper, polygons, face, indices);
+    } else {
+        for (uint32_t i = 0; i + 2 < n; i++) {
+            indices[3 * (size_t)i] = 0;
+            indices[3 * (size_t)i + 1] = i + 1;
+            indices[3 * (size_t)i + 2] = i + 2;
+        }
+    }
+}
+
+static void make_indices(vertices *v, plr_mesh *mesh) {
+    plr_polygons *p = v->polygons;
+    plr_clipper clipper = {.arena = p->arena, .budget = CLIPPING_BUDGET};
+    uint32_t *indices = mesh->indices;
+    for (size_t f = 0; f < p->faces.count; f++) {
+        const plr_face *face = &p->faces.items[f];
+        size_t count = index_count(p, face);
+        cut_face(p, &clipper, face, indices);
+        for (size_t i = 0; i < count; i++)
+            indices[i] = vertex_of(v, &p->corners.items[face->first + indices[i]]);
+        indices += count;
+    }
+}
+
+static float *gather(plr_polygons *p, const vertices *v, const float *values, size_t size,
+                     size_t member) {
+    if (!values)
+        return NULL;
+    float *gathered = plr_mesh_array(p->arena, v->count, size * sizeof *gathered);
+    for (size_t i = 0; i < v->count; i++) {
+        uint32_t index;
+        memcpy(&index, (const char *)&v->items[i] + member, sizeof index);
+        if (index != PLR_MESH_NONE)
+            memcpy(gathered + i * size, values + index * size, size * sizeof *gathered);
+    }
+    return gathered;
+}
+
+/* Lighting needs length 1; what has no direction looks along +Z. */
+static void normalize(float *normals, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        float *n = normals + 3 * i;
+        double length = sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] +
+                             (double)n[2] * (double)n[2]);
+        bool sound = length > 0 && isfinite(length);
+        for (int axis = 0; axis < 3; axis++)
+            n[axis] = sound ? (float)((double)n[axis] / length) : (float)(axis == 2);
+    }
+}
+
+/* ISO/IEC 19775-1 13.3.6: s runs along the longest side of the bounding box from 0 to 1, t along
+ * the second longest in the same measure; of equal sides x comes before y before z. */
+static float *default_tex_coords(plr_polygons *p, const plr_mesh *mesh) {
+    double low[3], size[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double high = low[axis] = (double)mesh->positions[axis];
+        for (size_t i = 1; i < mesh->vertex_count; i++) {
+            low[axis] = fmin(low[axis], (double)mesh->positions[3 * i + (size_t)axis]);
+            high = fmax(high, (double)mesh->positions[3 * i + (size_t)axis]);
+        }
+        size[axis] = high - low[axis];
+    }
+    int s = size[1] > size[0] ? 1 : 0;
+    if (size[2] > size[s])
+        s = 2;
+    int t = s == 0 ? 1 : 0;
+    int other = 3 - s - t;
+    if (size[other] > size[t])
+        t = other;
+    float *tex = plr_mesh_array(p->arena, mesh->vertex_count, 4 * sizeof *tex);
+    double scale = size[s] > 0 ? 1 / size[s] : 0;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *point = mesh->positions + 3 * i;
+        tex[4 * i] = (float)(((double)point[s] - low[s]) * scale);
+        tex[4 * i + 1] = (float)(((double)point[t] - low[t]) * scale);
+        tex[4 * i + 3] = 1;
+    }
+    return tex;
+}
+
+static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
+    mesh->vertex_count = v->count;
+    mesh->positions = gather(p, v, p->points, 3, offsetof(plr_corner, coord));
+    mesh->normals = gather(p, v, p->normals, 3, offsetof(plr_corner, normal));
+    if (mesh->normals)
+        normalize(mesh->normals, v->count);
+    mesh->colors = gather(p, v, p->colors, 4, offsetof(plr_corner, color));
+    mesh->tex_coords = gather(p, v, p->tex_coords, 4, offsetof(plr_corner, tex));
+    if (!mesh->tex_coords && p->kind == PLR_MESH_TRIANGLES)
+        mesh->tex_coords = default_tex_coords(p, mesh);
+    uint32_t *coords = PLR_NEW_ARRAY(p->arena, v->count, uint32_t);
+    for (uint32_t i = 0; i < v->count; i++)
+        coords[i] = v->items[i].coord;
+    plr_mesh_attributes(p, mesh, coords);
+}
+
+bool plr_polygons_emit(plr_polygons *p, plr_mesh *mesh) {
+    size_t indices = 0;
+    for (size_t f = 0; f < p->faces.count; f++)
+        indices += index_count(p, &p->faces.items[f]);
+    if (!indices || indices > UINT32_MAX)
+        return false;
+    mesh->kind = p->kind;
+    mesh->index_count = (uint32_t)indices;
+    mesh->indices = plr_mesh_array(p->arena, indices, sizeof *mesh->indices);
+    size_t size = 16;
+    while (size < p->corners.count * 2)
+        size *= 2;
+    vertices v = {.polygons = p,
+                  .items = PLR_NEW_ARRAY(p->arena, p->corners.count, plr_corner),
+                  .table = PLR_NEW_ARRAY(p->arena, size, uint32_t),
+                  .mask = size - 1};
+    make_indices(&v, mesh);
+    fill_mesh(p, &v, mesh);
+    return true;
+}

@@ -1,0 +1,86 @@
+/* Inside the mesh builder: polygons as geometry nodes describe them, on their way to triangles. */
+#ifndef PLR_ENGINE_MESH_INTERNAL_H
+#define PLR_ENGINE_MESH_INTERNAL_H
+
+#include "base/arena.h"
+#include "engine/mesh.h"
+
+/* More indices, counts or points than this in one node are refused. */
+#define PLR_MESH_LIMIT ((size_t)100 * 1000 * 1000)
+/* "no value": the shape has none of this kind, or it is made later. */
+#define PLR_MESH_NONE UINT32_MAX
+
+/* A corner of a polygon: indices into the values of plr_polygons. */
+typedef struct plr_corner {
+    uint32_t coord, normal, color, tex;
+} plr_corner;
+
+typedef struct plr_face {
+    uint32_t first, count; /* corners */
+} plr_face;
+
+/* Polygons, polylines or points of one node. Memory is the arena's. */
+typedef struct plr_polygons {
+    plr_arena *arena;
+    const plr_node *node;
+    plr_diags *diags;
+    plr_mesh_kind kind;
+    bool concave;            /* faces may be concave */
+    const float *points;     /* 3 each */
+    const float *normals;    /* 3 each; given or generated */
+    const float *colors;     /* 4 each */
+    const float *tex_coords; /* 4 each; NULL: the default mapping by bounding box */
+    uint32_t point_count;
+    struct {
+        plr_corner *items;
+        size_t count, capacity;
+    } corners;
+    struct {
+        plr_face *items;
+        size_t count, capacity;
+    } faces;
+} plr_polygons;
+
+/* mesh_read.c: reads a node that is made of coordinates. False if nothing can be drawn (reported).
+ */
+bool plr_mesh_is_polygons(const plr_node *node);
+bool plr_polygons_read(plr_polygons *polygons);
+
+/* mesh_values.c: the values of property nodes (Coordinate, Normal, Color, ...) as plain floats;
+ * NULL and count 0 where the node has none. */
+const float *plr_mesh_values(plr_arena *arena, const plr_node *property, const char *field,
+                             int components, const float *missing, uint32_t *count);
+const float *plr_mesh_tex_coords(plr_polygons *polygons, const plr_node *tex_coord,
+                                 uint32_t *count);
+void plr_mesh_attributes(plr_polygons *polygons, plr_mesh *mesh, const uint32_t *coords);
+
+/* mesh_normals.c: gives every corner a normal, from the faces alone. Two neighbours are smooth
+ * across their edge where the angle between them is below `crease` (radians); `clockwise`: faces
+ * are seen from the side where their corners run clockwise. */
+void plr_polygons_make_normals(plr_polygons *polygons, double crease, bool clockwise);
+/* Twice the area of a polygon along its normal (Newell's sum). */
+void plr_face_normal(const plr_polygons *polygons, const plr_face *face, double normal[3]);
+
+/* mesh_triangulate.c: cuts a polygon into count - 2 triangles by clipping ears; `triangles` takes
+ * 3 * (count - 2) corner numbers, counted from the face's first. A polygon that crosses itself
+ * gives as many triangles, that may overlap. */
+typedef struct plr_clipper {
+    plr_arena *arena;
+    struct plr_ring *ring;
+    size_t ring_capacity;
+    uint32_t *cells;
+    size_t cell_capacity;
+    uint64_t budget; /* steps left before the search for ears is given up */
+} plr_clipper;
+void plr_triangulate(plr_clipper *clipper, const plr_polygons *polygons, const plr_face *face,
+                     uint32_t *triangles);
+
+/* mesh_emit.c: vertices and indices. False if there is nothing to draw. */
+bool plr_polygons_emit(plr_polygons *polygons, plr_mesh *mesh);
+/* malloc for the mesh's own arrays; without memory jumps as the arena does. */
+void *plr_mesh_array(plr_arena *arena, size_t count, size_t size);
+
+/* mesh_shapes.c: Box, Sphere, ... False if the node is none of them. */
+bool plr_mesh_shape(plr_arena *arena, const plr_node *node, plr_mesh *mesh);
+
+#endif
