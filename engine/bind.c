@@ -295,6 +295,7 @@ struct plr_slot {
     enum {
         SLOT_VALUE,
         SLOT_FIELD,
+        SLOT_COUNT,
         SLOT_TEXTURE,
         SLOT_VOXELS,
         SLOT_DEFAULT_RAMP,
@@ -304,6 +305,16 @@ struct plr_slot {
     unsigned unit;
     bool clamp;
 };
+
+/* "skyColor_count" is the number of elements of the field skyColor. */
+static const plr_field *counted_field(const plr_node *node, const char *name) {
+    char field[64];
+    size_t length = strlen(name), tail = strlen("_count");
+    if (length <= tail || length >= sizeof field || strcmp(name + length - tail, "_count") != 0)
+        return NULL;
+    snprintf(field, sizeof field, "%.*s", (int)(length - tail), name);
+    return plr_node_field(node, field);
+}
 
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
 static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
@@ -336,6 +347,9 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     }
     if (!binding || !binding->node)
         return false;
+    slot->source = SLOT_COUNT;
+    if (builtin && (slot->field = counted_field(binding->node, symbol->name)))
+        return slot->type->shape == SHAPE_INT;
     slot->field = builtin ? field_by_path(binding->node, symbol->name)
                           : plr_node_field(binding->node, symbol->name);
     slot->source = SLOT_FIELD;
@@ -460,6 +474,9 @@ static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_s
         return;
     case SLOT_FIELD:
         set_field(gl, slot);
+        return;
+    case SLOT_COUNT:
+        gl->Uniform1i(slot->location, (GLint)slot->field->count);
         return;
     case SLOT_VOXELS:
         if (volume)

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/volume.h"
+
 /* ---- Making a view
  * ------------------------------------------------------------------------------------- */
 
@@ -41,6 +43,7 @@ static void find_gradient_units(plr_view *view) {
 static void upload(plr_view *view) {
     const plr_gl *gl = &view->engine->gl;
     plr_phase start = plr_clock();
+    plr_pass_find(view, &view->background);
     plr_pass_find(view, &view->volumes.pass);
     for (size_t i = 0; i < view->surface_count; i++)
         plr_pass_find(view, &view->surfaces[i].pass);
@@ -61,6 +64,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
                       view->desc.viewpoint);
         return false;
     }
+    plr_background_prepare(view);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);
     if (view->engine)
@@ -146,24 +150,6 @@ static void plan_depths(const plr_view *view, double depths[2]) {
     }
 }
 
-static void clear(const plr_view *view) {
-    const plr_gl *gl = &view->engine->gl;
-    float color[4] = {0, 0, 0, 0};
-    const plr_node *background = view->flat.background;
-    if (background) {
-        plr_node_numbers(background, "skyColor", color, 3);
-        color[3] = 1 - (float)plr_node_number(background, "transparency");
-        for (int i = 0; i < 3; i++)
-            color[i] *= color[3];
-    }
-    gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl->DepthMask(GL_TRUE);
-    gl->Disable(GL_SCISSOR_TEST);
-    gl->ClearColor(color[0], color[1], color[2], color[3]);
-    gl->ClearDepth(1);
-    gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
 static int farther_first(const void *a, const void *b) {
     double x = (*(plr_surface *const *)a)->depth, y = (*(plr_surface *const *)b)->depth;
     return x < y ? 1 : x > y ? -1 : 0;
@@ -190,7 +176,7 @@ static void draw_volumes(plr_view *view, const plr_frame *frame) {
 
 static bool draw_frame(plr_view *view, const plr_frame *frame) {
     plr_framebuffer_bind(&view->framebuffer);
-    clear(view);
+    plr_background_draw(view, frame);
     plr_surface **blending = malloc((view->surface_count + 1) * sizeof(plr_surface *));
     if (!blending)
         return false;

@@ -49,6 +49,7 @@ struct plr_view {
     plr_textures textures;
     plr_kitchen kitchen;
     plr_composer composer;
+    plr_pass background; /* of more than one colour */
     plr_volume_pass volumes;
     plr_surface *surfaces;
     size_t surface_count;
@@ -61,6 +62,7 @@ struct plr_view {
  * -------------------------------------------------------------------------- */
 
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
+void plr_background_prepare(plr_view *view);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
@@ -72,6 +74,8 @@ void plr_pass_light_authors(plr_view *view, plr_recipe *recipe);
 /* ---- Drawing
  * ---------------------------------------------------------------------------------------- */
 
+/* Clears colour and depth, then draws the background. */
+void plr_background_draw(plr_view *view, const plr_frame *frame);
 void plr_volume_pass_draw(plr_view *view, const plr_frame *frame);
 /* Samples along all rays of this frame when none ends early. */
 double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame);
