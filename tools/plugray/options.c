@@ -94,8 +94,8 @@ static void print_help(void) {
 }
 
 static void print_command_help(tool_command command) {
-    printf("Usage: plugray %s %s [OPTION...]\n\nIt is to %s.\n\nOptions:\n", commands[command].name,
-           commands[command].operands, commands[command].summary);
+    printf("Usage: plugray %s %s [OPTION...]\n\nUse it to %s.\n\nOptions:\n",
+           commands[command].name, commands[command].operands, commands[command].summary);
     for (size_t i = 0; i < OPTION_COUNT; i++)
         if ((options[i].commands >> command & 1) && options[i].given != LATER)
             print_row(options[i].name, options[i].value, options[i].help);
@@ -213,7 +213,8 @@ static bool read_words(tool_arguments *arguments, int argc, char **argv, int *st
     }
     const command_row *row = &commands[arguments->command];
     if (arguments->operand_count < row->fewest) {
-        *status = usage_error(arguments, "%s is missing", row->operands);
+        *status = usage_error(arguments, "%.*s is missing", (int)strcspn(row->operands, " ."),
+                              row->operands);
         return false;
     }
     if (arguments->operand_count > row->most) {
