@@ -53,6 +53,8 @@ bool plr_is_gzip(const char *data, size_t length) {
     return length >= 18 && memcmp(data, "\x1f\x8b\x08", 3) == 0;
 }
 
+static const char damaged[] = "they are damaged";
+
 /* A gzip file as a stream: reading goes on over the ends of its members. */
 typedef struct unpacker {
     z_stream stream;
@@ -112,7 +114,7 @@ static size_t unpacker_read(unpacker *u, char *out, size_t size) {
                  (result == Z_OK && !u->stream.avail_in && !u->left && u->stream.avail_out))
             u->fault = "they are cut off";
         else if (result != Z_OK)
-            u->fault = "they are damaged";
+            u->fault = damaged;
     }
     return done;
 }
@@ -126,9 +128,12 @@ size_t plr_inflate(const char *data, size_t length, uint64_t skip, void *out, si
         while (skip > 0 && !u.ended && !u.fault)
             skip -= unpacker_read(&u, waste, skip < sizeof waste ? (size_t)skip : sizeof waste);
         done = unpacker_read(&u, out, size);
+        /* one byte more makes zlib compare the check sum, if this is the end */
+        if (done == size)
+            unpacker_read(&u, waste, 1);
         inflateEnd(&u.stream);
     }
-    *fault = done < size ? u.fault : NULL;
+    *fault = done < size || u.fault == damaged ? u.fault : NULL;
     return done;
 }
 
