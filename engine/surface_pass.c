@@ -136,9 +136,12 @@ static void prepare_surface(plr_view *view, plr_surface *surface, const plr_leaf
 
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags) {
     view->surfaces = PLR_NEW_ARRAY(&view->arena, view->flat.shapes.count + 1, plr_surface);
+    view->blending = PLR_NEW_ARRAY(&view->arena, view->flat.shapes.count + 1, plr_surface *);
     for (size_t i = 0; i < view->flat.shapes.count; i++) {
         view->surface_count = i + 1; /* before: so that its mesh is freed whatever happens */
         prepare_surface(view, &view->surfaces[i], &view->flat.shapes.items[i], diags);
+        if (view->surfaces[i].blends)
+            view->blending[view->blending_count++] = &view->surfaces[i];
     }
 }
 

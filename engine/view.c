@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/state.h"
 #include "engine/volume.h"
 
 /* ---- Making a view
@@ -165,38 +166,39 @@ static double volume_depth(const plr_view *view, const plr_frame *frame) {
     return depth;
 }
 
-static void draw_volumes(plr_view *view, const plr_frame *frame) {
+static void draw_opaque(plr_view *view, const plr_frame *frame) {
+    for (size_t i = 0; i < view->surface_count; i++)
+        if (!view->surfaces[i].blends)
+            plr_surface_draw(view, &view->surfaces[i], frame);
+}
+
+/* Translucent surfaces from the farthest to the nearest, with the volumes among them. `target` is
+ * the framebuffer to draw into; the volumes read the depths of `frame`, so they are drawn without
+ * them where that texture belongs to the target (`without_depth`). */
+static void draw_translucent(plr_view *view, const plr_frame *frame, GLuint target,
+                             GLuint without_depth) {
+    const plr_gl *gl = &view->engine->gl;
+    qsort(view->blending, view->blending_count, sizeof *view->blending, farther_first);
+    double middle = volume_depth(view, frame);
+    size_t next = 0;
+    while (next < view->blending_count && view->blending[next]->depth > middle)
+        plr_surface_draw(view, view->blending[next++], frame);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, without_depth);
+    plr_volume_pass_draw(view, frame);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+    while (next < view->blending_count)
+        plr_surface_draw(view, view->blending[next++], frame);
+}
+
+static void draw_frame(plr_view *view, const plr_frame *frame) {
     const plr_gl *gl = &view->engine->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, view->color_only);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              view->framebuffer.color, 0);
-    plr_volume_pass_draw(view, frame);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, view->framebuffer.name);
-}
-
-static bool draw_frame(plr_view *view, const plr_frame *frame) {
     plr_framebuffer_bind(&view->framebuffer);
     plr_background_draw(view, frame);
-    plr_surface **blending = malloc((view->surface_count + 1) * sizeof(plr_surface *));
-    if (!blending)
-        return false;
-    size_t count = 0;
-    for (size_t i = 0; i < view->surface_count; i++) {
-        if (view->surfaces[i].blends)
-            blending[count++] = &view->surfaces[i];
-        else
-            plr_surface_draw(view, &view->surfaces[i], frame);
-    }
-    qsort(blending, count, sizeof *blending, farther_first);
-    double middle = volume_depth(view, frame);
-    size_t next = 0;
-    while (next < count && blending[next]->depth > middle)
-        plr_surface_draw(view, blending[next++], frame);
-    draw_volumes(view, frame);
-    while (next < count)
-        plr_surface_draw(view, blending[next++], frame);
-    free(blending);
-    return true;
+    draw_opaque(view, frame);
+    draw_translucent(view, frame, view->framebuffer.name, view->color_only);
 }
 
 /* The radical inverse of Halton's sequence: sample points that fill the pixel evenly. */
@@ -235,7 +237,8 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     bool fine = one != NULL;
     for (int sample = 0; fine && sample < samples; sample++) {
         plan_frame(view, desc, sample, samples, &frame);
-        fine = draw_frame(view, &frame) && plr_framebuffer_read(&view->framebuffer, one);
+        draw_frame(view, &frame);
+        fine = plr_framebuffer_read(&view->framebuffer, one);
         for (size_t i = 0; fine && samples > 1 && i < count; i++)
             picture->pixels[i] += one[i] / (float)samples;
     }
@@ -244,15 +247,19 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     return fine;
 }
 
+static bool size_framebuffer(plr_view *view, int width, int height, plr_diags *diags) {
+    plr_framebuffer *framebuffer = &view->framebuffer;
+    return framebuffer->name
+               ? plr_framebuffer_resize(framebuffer, width, height, diags)
+               : plr_framebuffer_create(framebuffer, &view->engine->gl, width, height, diags);
+}
+
 bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *picture,
                    plr_diags *diags) {
     *picture = (plr_picture){0};
     if (!view->engine || desc->width < 1 || desc->height < 1)
         return false;
-    bool sized = view->framebuffer.name
-                     ? plr_framebuffer_resize(&view->framebuffer, desc->width, desc->height, diags)
-                     : plr_framebuffer_create(&view->framebuffer, &view->engine->gl, desc->width,
-                                              desc->height, diags);
+    bool sized = size_framebuffer(view, desc->width, desc->height, diags);
     size_t count = (size_t)desc->width * (size_t)desc->height * 4;
     picture->pixels = sized ? calloc(count, sizeof(float)) : NULL;
     if (!picture->pixels)
@@ -265,6 +272,53 @@ bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *pictu
     view->stats.draw = (plr_phase){end.cpu_ms - start.cpu_ms, end.wall_ms - start.wall_ms};
     if (!fine)
         plr_picture_free(picture);
+    return fine;
+}
+
+/* The depths that the host drew, in a texture of our own, which volumes can read. */
+static void copy_depths(const plr_view *view, GLuint host, const GLint viewport[4]) {
+    const plr_gl *gl = &view->engine->gl;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, view->framebuffer.name);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->DepthMask(GL_TRUE);
+    gl->ClearDepth(1);
+    gl->Clear(GL_DEPTH_BUFFER_BIT); /* what stands where the host has no depths */
+    gl->BindFramebuffer(GL_FRAMEBUFFER, host);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, view->framebuffer.depth);
+    gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2],
+                          viewport[3]);
+}
+
+static void matrix_from(plr_matrix *matrix, const double *values) {
+    if (values)
+        memcpy(matrix->m, values, sizeof matrix->m);
+}
+
+bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
+                        plr_diags *diags) {
+    if (!view->engine)
+        return false;
+    const plr_gl *gl = &view->engine->gl;
+    plr_gl_state state;
+    plr_gl_state_save(gl, &state);
+    plr_draw_desc desc = {state.viewport[2], state.viewport[3], 1};
+    bool fine =
+        desc.width > 0 && desc.height > 0 && size_framebuffer(view, desc.width, desc.height, diags);
+    if (fine) {
+        plr_frame frame;
+        plan_frame(view, &desc, 0, 1, &frame);
+        matrix_from(&frame.projection, projection);
+        matrix_from(&frame.view, camera);
+        frame.viewport[0] = state.viewport[0];
+        frame.viewport[1] = state.viewport[1];
+        frame.opaque_depth = view->framebuffer.depth;
+        GLuint host = (GLuint)state.draw_framebuffer;
+        draw_opaque(view, &frame);
+        copy_depths(view, host, state.viewport);
+        draw_translucent(view, &frame, host, host);
+    }
+    plr_gl_state_restore(gl, &state);
     return fine;
 }
 

@@ -53,6 +53,8 @@ struct plr_view {
     plr_volume_pass volumes;
     plr_surface *surfaces;
     size_t surface_count;
+    plr_surface **blending; /* the translucent ones */
+    size_t blending_count;
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_view_stats stats;

@@ -174,7 +174,8 @@ static void build_recipe(plr_view *view, const plr_leaf **leaves, bool early_end
     plr_kitchen *k = &view->kitchen;
     *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster")};
     plr_recipe_define(k, recipe, "VOLUME_COUNT", (int)pass->count);
-    plr_recipe_define(k, recipe, "HAS_OPAQUE", view->flat.shapes.count > 0);
+    plr_recipe_define(k, recipe, "HAS_OPAQUE",
+                      view->flat.shapes.count > 0 || view->desc.host_depths);
     plr_recipe_define(k, recipe, "EARLY_END", early_end);
     double cut[2];
     plr_viewpoint_cut(view->viewpoint, cut);

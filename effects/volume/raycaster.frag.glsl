@@ -50,7 +50,7 @@ const float NOWHERE = 3.0e38;
 #if HAS_OPAQUE
 /* Distance along the ray of what the depth buffer holds at this pixel. */
 float opaque_distance(vec3 direction_eye) {
-    float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).r;
+    float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy - viewport.xy), 0).r;
     if (depth >= 1.0)
         return NOWHERE;
     float ndc = 2.0 * depth - 1.0;

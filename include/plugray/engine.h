@@ -61,11 +61,13 @@ PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
  * ----------------------------------------------------------------------------- */
 
 typedef struct plr_view_desc {
-    const char
-        *viewpoint; /* NULL or "": the first in the file; else number from 1, DEF, description */
-    double time;    /* seconds */
-    double step;    /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
-    int dialect;    /* 0: found out, 2005, or 1: final */
+    /* NULL or "": the first of the file; else a number from 1, a DEF name or a description */
+    const char *viewpoint;
+    double time; /* seconds */
+    double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
+    int dialect; /* of volume nodes; 0: found out, 2005, or 1: final */
+    /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
+    bool host_depths;
 } plr_view_desc;
 
 /* A scene, with programs, textures and buffers. Scene and engine must outlive it. */
@@ -93,9 +95,10 @@ typedef struct plr_picture {
 PLR_API bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *picture,
                            plr_diags *diags);
 PLR_API void plr_picture_free(plr_picture *picture);
-/* Draws into the framebuffer that is bound (colour and depth), in the viewport that is set, with
- * the host's camera: column-major projection and view matrices, NULL for the scene's viewpoint. All
- * GL state is restored. Needs GL. */
+/* Draws into the framebuffer that is bound (colour and depth, not multisampled), in the viewport that
+ * is set, over what it holds and without a background, with the host's camera: projection and
+ * world-to-eye matrices of 16 numbers, column by column; NULL: those of the scene's viewpoint. The GL
+ * state that is changed is set back. Needs GL. */
 PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
                                 plr_diags *diags);
 
