@@ -22,9 +22,12 @@ uniform mat3 castle_NormalMatrix;
 /* Of the picture. Model: object to world; view: world to eye; projection: eye to clip space. */
 uniform mat4 plugray_ModelMatrix;
 uniform mat4 plugray_ViewMatrix;
+uniform mat4 plugray_ModelViewMatrix;
 uniform mat4 plugray_ProjectionMatrix;
+uniform mat3 plugray_NormalMatrix;
 uniform mat4 plugray_InverseModelMatrix;
 uniform mat4 plugray_InverseViewMatrix;
+uniform mat4 plugray_InverseModelViewMatrix;
 uniform mat4 plugray_InverseProjectionMatrix;
 uniform float plugray_Time;        /* seconds */
 uniform vec2 plugray_ViewportSize; /* pixels */
