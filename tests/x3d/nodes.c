@@ -63,7 +63,7 @@ static const struct {
     {"SpotLight", "cutOffAngle", PLR_SFFLOAT, IO, "1.570796", 0, 1.5708, true, false},
     {"Viewpoint", "position", PLR_SFVEC3F, IO, "0 0 10", ANY},
     {"Viewpoint", "fieldOfView", PLR_SFFLOAT, IO, "0.785398", 0, 3.1416, true, true},
-    {"OrthoViewpoint", "fieldOfView", PLR_SFVEC4F, IO, "-1 -1 1 1", ANY},
+    {"OrthoViewpoint", "fieldOfView", PLR_MFFLOAT, IO, "[-1 -1 1 1]", ANY},
     {"NavigationInfo", "avatarSize", PLR_MFFLOAT, IO, "[0.25 1.6 0.75]", NOT_NEGATIVE},
     {"NavigationInfo", "type", PLR_MFSTRING, IO, "[\"EXAMINE\" \"ANY\"]", ANY},
     {"NavigationInfo", "headlight", PLR_SFBOOL, IO, "TRUE", ANY},
