@@ -47,11 +47,11 @@ only_c() {
 check 'libplugray-plugs needs nothing but the C library' only_c
 exports() { nm -D --defined-only "$1" | awk '{ print $3 }'; }
 only_own() {
-    exports "$library"
-    [ "$(exports "$library" | grep -c '^plr_')" -gt 10 ] &&
-        ! exports "$library" | grep -vE '^plr_|^_(init|fini)$'
+    exports "$1"
+    [ "$(exports "$1" | grep -c '^plr_')" -gt 10 ] && ! exports "$1" | grep -vE '^plr_'
 }
-check 'libplugray-plugs exports plr_ names alone' only_own
+check 'libplugray-plugs exports plr_ names alone' only_own "$library"
+check 'libplugray exports plr_ names alone' only_own "$whole"
 declared() { # every function that the headers declare is in the library
     local missing=0 name
     for name in $(cat "$@" | sed -n 's/^PLR_API .*[ *]\(plr_[a-z0-9_]*\)(.*/\1/p'); do
