@@ -58,6 +58,8 @@ static void *new_block(plr_arena *arena, size_t size) {
 
 void *plr_arena_alloc(plr_arena *arena, size_t size) {
     const size_t align = alignof(max_align_t);
+    if (!size)
+        size = 1; /* so that nothing has an address of its own, never NULL */
     if (size > SIZE_MAX - align)
         longjmp(*arena->out_of_memory, 1);
     size = (size + align - 1) / align * align;
