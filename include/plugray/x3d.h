@@ -147,7 +147,8 @@ typedef struct plr_read_desc {
     plr_file_rules rules;
     const plr_allocator *allocator; /* NULL: the C library's (libxml2 and zlib keep their own) */
     size_t max_nodes;               /* after prototypes and inlines; 0: 10 million */
-    size_t max_depth;               /* of nesting of nodes, inlines, prototypes; 0: 512 */
+    size_t max_depth;               /* of nesting of nodes, inlines, prototypes; 0: 512, at most 2000 */
+    size_t max_memory;              /* of the graph in bytes, texts of files not counted; 0: 4 GiB */
 } plr_read_desc;
 
 /* Reads the file at `path` with everything that it inlines. Faults are reported and what can be
@@ -172,6 +173,9 @@ PLR_API double plr_scene_length_unit(const plr_scene *scene);
 PLR_API double plr_scene_angle_unit(const plr_scene *scene);
 /* META statements in order: name and content; NULL beyond the last. */
 PLR_API const char *plr_scene_meta(const plr_scene *scene, size_t index, const char **content);
+/* Whether the scene uses a node or field that only the volume proposal of 2005 has; `where` (may be
+ * NULL) is then set to the first place that does. */
+PLR_API bool plr_scene_uses_2005(const plr_scene *scene, plr_place *where);
 /* One line of a file that the scene was read from (newline excluded), or NULL; for messages. */
 PLR_API const char *plr_scene_line(const plr_scene *scene, const char *file, uint32_t line,
                                    size_t *length);
@@ -257,6 +261,7 @@ typedef struct plr_field_info {
     bool exclusive_minimum, exclusive_maximum;
     const char *nodes; /* for nodes: the types and abstract types allowed, separated by blanks */
     bool extension;    /* not in ISO/IEC 19775-1: plugray's own or another browser's */
+    bool dialect_2005; /* only in the volume proposal of 2005: tells the dialect of a scene */
 } plr_field_info;
 
 typedef struct plr_node_info {
@@ -268,6 +273,7 @@ typedef struct plr_node_info {
     size_t field_count;
     bool author_fields; /* takes fields that the author declares */
     bool extension;
+    bool dialect_2005;
 } plr_node_info;
 
 PLR_API size_t plr_node_info_count(void);
