@@ -19,8 +19,9 @@ typedef struct plr_glsl_messages {
 } plr_glsl_messages;
 
 /* Parses (and if every text parses, links) the stages; texts[stage] may be NULL. All errors are
- * asked for, not only the first. `messages[stage]` are in order of lines; those of linking the stages
- * are in `link`. True if all is well. Free the messages with plr_glsl_messages_free. Thread-safe. */
+ * asked for, not only the first. `messages[stage]` are in order of lines; those of linking the
+ * stages are in `link`. True if all is well. Free the messages with plr_glsl_messages_free.
+ * Thread-safe. */
 bool plr_glsl_check(const char *const texts[PLR_STAGE_COUNT],
                     plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link);
 void plr_glsl_messages_free(plr_glsl_messages *messages);

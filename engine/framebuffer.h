@@ -1,0 +1,30 @@
+/* An offscreen framebuffer: float colour and depth. Needs GL. */
+#ifndef PLR_ENGINE_FRAMEBUFFER_H
+#define PLR_ENGINE_FRAMEBUFFER_H
+
+#include <plugray/base.h>
+#include "engine/gl.h"
+
+typedef struct plr_framebuffer {
+    const plr_gl *gl;
+    GLuint name;
+    GLuint color; /* 2D texture, RGBA32F, nearest */
+    GLuint depth; /* 2D texture, DEPTH_COMPONENT32F, nearest */
+    int width, height;
+} plr_framebuffer;
+
+/* Makes a framebuffer of that size. False with an error (`limit`, `no-memory`, `no-gl`) if the
+ * context cannot; it may then be destroyed or resized. No state of the context changes. */
+bool plr_framebuffer_create(plr_framebuffer *framebuffer, const plr_gl *gl, int width, int height,
+                            plr_diags *diags);
+/* Another size; what it held is lost. The names in GL stay the same. */
+bool plr_framebuffer_resize(plr_framebuffer *framebuffer, int width, int height, plr_diags *diags);
+/* Frees what it made in GL; a struct of zeros is fine. */
+void plr_framebuffer_destroy(plr_framebuffer *framebuffer);
+
+/* Binds it for drawing and reading, and sets the viewport to all of it. */
+void plr_framebuffer_bind(const plr_framebuffer *framebuffer);
+/* Reads width * height RGBA floats, top row first. No state of the context changes. */
+bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels);
+
+#endif
