@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps that all concave polygons of one node may take together: some seconds at most. */
-#define CLIPPING_BUDGET (UINT64_C(1) << 29)
+/* Steps that all concave polygons of one node may take together: a second or two. */
+#define CLIPPING_BUDGET (UINT64_C(1) << 28)
 
 /* Vertices so far: equal corners become one. */
 typedef struct vertices {

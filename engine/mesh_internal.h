@@ -68,8 +68,8 @@ typedef struct plr_clipper {
     plr_arena *arena;
     struct plr_ring *ring;
     size_t ring_capacity;
-    uint32_t *cells;
-    size_t cell_capacity;
+    uint32_t *queue, *cells;
+    size_t queue_capacity, cell_capacity;
     uint64_t budget; /* steps left before the search for ears is given up */
 } plr_clipper;
 void plr_triangulate(plr_clipper *clipper, const plr_polygons *polygons, const plr_face *face,

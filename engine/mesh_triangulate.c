@@ -1,5 +1,7 @@
 /* Ear clipping: a corner is an ear where the polygon turns outward and no inward corner lies in its
- * triangle. Inward corners stand in a grid, so that small ears look at few of them. */
+ * triangle. Cutting an ear makes news of its two neighbours only, so a queue of corners to look at
+ * serves each corner three times. Inward corners stand in a grid, so that small ears look at few.
+ */
 #include "engine/mesh_internal.h"
 
 #include <math.h>
@@ -10,6 +12,7 @@ typedef struct plr_ring {
     uint32_t previous, next;
     uint32_t next_in_cell;
     bool inward; /* the polygon turns inward here, or not at all */
+    bool queued, cut;
 } ring;
 
 typedef struct clip {
@@ -19,6 +22,8 @@ typedef struct clip {
     uint32_t *cells; /* grid * grid heads of lists; PLR_MESH_NONE: empty */
     uint32_t grid;
     double low[2], scale[2];
+    uint32_t *queue; /* a circle of `count`; each corner stands there once at most */
+    uint32_t head, waiting;
 } clip;
 
 static double turn(const ring *a, const ring *b, const ring *c) {
@@ -120,6 +125,32 @@ static bool is_ear(clip *c, uint32_t i) {
     return !holds_corner(c, &c->ring[at->previous], at, &c->ring[at->next]);
 }
 
+static void enqueue(clip *c, uint32_t i) {
+    if (c->ring[i].queued)
+        return;
+    c->ring[i].queued = true;
+    uint32_t place =
+        c->count - c->head > c->waiting ? c->head + c->waiting : c->waiting - (c->count - c->head);
+    c->queue[place] = i;
+    c->waiting++;
+}
+
+static uint32_t dequeue(clip *c) {
+    uint32_t i = c->queue[c->head];
+    c->head = c->head + 1 < c->count ? c->head + 1 : 0;
+    c->waiting--;
+    c->ring[i].queued = false;
+    return i;
+}
+
+/* What has become of a neighbour of a corner just cut. */
+static void look_again(clip *c, uint32_t i) {
+    /* corners only turn outward: who stands in the grid was inward from the start */
+    if (c->ring[i].inward)
+        update_inward(c, i);
+    enqueue(c, i);
+}
+
 static void cut(clip *c, uint32_t i, uint32_t *triangle) {
     ring *at = &c->ring[i];
     triangle[0] = at->previous;
@@ -128,35 +159,42 @@ static void cut(clip *c, uint32_t i, uint32_t *triangle) {
     c->ring[at->previous].next = at->next;
     c->ring[at->next].previous = at->previous;
     at->inward = false;
-    /* corners only turn outward: who stands in the grid was inward from the start */
-    if (c->ring[at->previous].inward)
-        update_inward(c, at->previous);
-    if (c->ring[at->next].inward)
-        update_inward(c, at->next);
+    at->cut = true;
+    look_again(c, at->previous);
+    look_again(c, at->next);
+}
+
+static void start(clip *c, const plr_polygons *polygons, const plr_face *face) {
+    plr_clipper *clipper = c->clipper;
+    clipper->ring = plr_arena_grow(clipper->arena, clipper->ring, &clipper->ring_capacity,
+                                   face->count, sizeof *clipper->ring);
+    clipper->queue = plr_arena_grow(clipper->arena, clipper->queue, &clipper->queue_capacity,
+                                    face->count, sizeof *clipper->queue);
+    c->ring = clipper->ring;
+    c->queue = clipper->queue;
+    project(c, polygons, face);
+    fill_grid(c);
+    for (uint32_t i = 0; i < c->count; i++)
+        enqueue(c, i);
 }
 
 void plr_triangulate(plr_clipper *clipper, const plr_polygons *polygons, const plr_face *face,
                      uint32_t *triangles) {
     clip c = {.clipper = clipper, .count = face->count};
-    clipper->ring = plr_arena_grow(clipper->arena, clipper->ring, &clipper->ring_capacity,
-                                   face->count, sizeof *clipper->ring);
-    c.ring = clipper->ring;
-    project(&c, polygons, face);
-    fill_grid(&c);
-    uint32_t at = 0, left = face->count, refused = 0;
-    while (left > 3) {
-        /* no ear all around (crossing edges, no area) or no patience left: any corner will do */
-        if (is_ear(&c, at) || refused >= left || !clipper->budget) {
-            uint32_t next = c.ring[at].next;
-            cut(&c, at, triangles);
-            triangles += 3;
-            left--;
-            refused = 0;
-            at = c.ring[next].next; /* not the neighbour: fewer slivers */
-        } else {
-            refused++;
-            at = c.ring[at].next;
+    start(&c, polygons, face);
+    uint32_t some = 0; /* a corner that is still there */
+    for (uint32_t left = face->count; left >= 3; left--) {
+        uint32_t ear = PLR_MESH_NONE;
+        while (c.waiting && ear == PLR_MESH_NONE) {
+            uint32_t i = dequeue(&c);
+            if (!c.ring[i].cut && is_ear(&c, i))
+                ear = i;
         }
+        /* none all around: edges cross, nothing has area, or the budget is spent; any will do */
+        if (ear == PLR_MESH_NONE)
+            ear = some;
+        cut(&c, ear, triangles);
+        triangles += 3;
+        some = c.ring[ear].next;
     }
-    cut(&c, at, triangles);
 }

@@ -1,0 +1,552 @@
+/* Geometry nodes to triangles, lines and points, against closed forms. */
+#include "engine/mesh.h"
+#include "tests/tap.h"
+
+#define PI 3.14159265358979323846
+
+typedef struct fixture {
+    plr_diags *diags;
+    plr_scene *scene;
+    plr_mesh mesh;
+    bool built;
+} fixture;
+
+/* The mesh of one geometry node, written in Classic VRML. */
+static fixture build(const char *geometry) {
+    fixture f = {.diags = plr_diags_create(NULL)};
+    size_t size = strlen(geometry) + 100;
+    char *text = malloc(size);
+    snprintf(text, size, "#X3D V4.0 utf8\nPROFILE Full\nShape { geometry %s\n}\n", geometry);
+    f.scene = plr_scene_parse(text, strlen(text), "test.x3dv", NULL, f.diags);
+    free(text);
+    plr_node *node = f.scene ? plr_node_child(plr_scene_root(f.scene, 0), "geometry") : NULL;
+    f.built = node && plr_mesh_build(node, &f.mesh, f.diags);
+    return f;
+}
+
+static void finish(fixture *f) {
+    plr_mesh_free(&f->mesh);
+    plr_scene_destroy(&f->scene);
+    plr_diags_destroy(&f->diags);
+}
+
+static size_t count_code(const fixture *f, plr_code code) {
+    size_t count = 0;
+    for (size_t i = 0; i < plr_diags_count(f->diags); i++)
+        count += plr_diags_get(f->diags, i)->code == code;
+    return count;
+}
+
+static const float *vertex(const plr_mesh *mesh, size_t index) {
+    return mesh->positions + 3 * (size_t)mesh->indices[index];
+}
+
+static void cross_of(const plr_mesh *mesh, size_t triangle, double cross[3]) {
+    const float *a = vertex(mesh, triangle * 3), *b = vertex(mesh, triangle * 3 + 1),
+                *c = vertex(mesh, triangle * 3 + 2);
+    double u[3], v[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = (double)b[i] - (double)a[i];
+        v[i] = (double)c[i] - (double)a[i];
+    }
+    cross[0] = u[1] * v[2] - u[2] * v[1];
+    cross[1] = u[2] * v[0] - u[0] * v[2];
+    cross[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+static double area_of(const plr_mesh *mesh) {
+    double area = 0;
+    for (size_t t = 0; t < mesh->index_count / 3; t++) {
+        double n[3];
+        cross_of(mesh, t, n);
+        area += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    }
+    return area;
+}
+
+/* Signed: positive where triangles run counterclockwise as seen from outside. */
+static double volume_of(const plr_mesh *mesh) {
+    double volume = 0;
+    for (size_t t = 0; t < mesh->index_count / 3; t++) {
+        double n[3];
+        cross_of(mesh, t, n);
+        const float *a = vertex(mesh, t * 3);
+        volume += ((double)a[0] * n[0] + (double)a[1] * n[1] + (double)a[2] * n[2]) / 6;
+    }
+    return volume;
+}
+
+static int compare_points(const void *a, const void *b) {
+    return memcmp(a, b, 12);
+}
+static int compare_edges(const void *a, const void *b) {
+    return memcmp(a, b, 8);
+}
+
+static uint32_t rank_of(const float *points, size_t count, const float *point) {
+    return (uint32_t)((const float *)bsearch(point, points, count, 12, compare_points) - points) /
+           3;
+}
+
+/* Vertices - edges + faces, equal positions counted once: 2 for what is closed like a sphere. */
+static long euler_number(const plr_mesh *mesh) {
+    size_t n = mesh->vertex_count, edge_count = 0, faces = 0, points = 0, edges = 0;
+    float *sorted = malloc(n * 12);
+    for (size_t i = 0; i < n * 3; i++)
+        sorted[i] = mesh->positions[i] + 0.0f; /* no -0 */
+    float *lookup = malloc(n * 12);
+    memcpy(lookup, sorted, n * 12);
+    qsort(sorted, n, 12, compare_points);
+    for (size_t i = 0; i < n; i++)
+        if (!i || memcmp(sorted + 3 * i, sorted + 3 * (points - 1), 12) != 0)
+            memmove(sorted + 3 * points++, sorted + 3 * i, 12);
+    uint32_t(*pairs)[2] = malloc(mesh->index_count * sizeof *pairs);
+    for (size_t t = 0; t < mesh->index_count; t += 3, faces++)
+        for (size_t i = 0; i < 3; i++) {
+            uint32_t a = rank_of(sorted, points, lookup + 3 * mesh->indices[t + i]);
+            uint32_t b = rank_of(sorted, points, lookup + 3 * mesh->indices[t + (i + 1) % 3]);
+            pairs[edge_count][0] = a < b ? a : b;
+            pairs[edge_count++][1] = a < b ? b : a;
+        }
+    qsort(pairs, edge_count, 8, compare_edges);
+    for (size_t i = 0; i < edge_count; i++)
+        edges += !i || memcmp(pairs[i], pairs[i - 1], 8) != 0;
+    free(sorted);
+    free(lookup);
+    free(pairs);
+    return (long)points - (long)edges + (long)faces;
+}
+
+/* The largest angle (its sine) between normals and what `expected` says. */
+static double normal_error(const plr_mesh *mesh,
+                           void (*expected)(const float *position, double normal[3])) {
+    double worst = 0;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        double n[3];
+        expected(mesh->positions + 3 * i, n);
+        for (int axis = 0; axis < 3; axis++)
+            worst = fmax(worst, fabs((double)mesh->normals[3 * i + (size_t)axis] - n[axis]));
+    }
+    return worst;
+}
+
+/* Every triangle faces the way its normals do. */
+static bool faces_outward(const plr_mesh *mesh) {
+    for (size_t t = 0; t < mesh->index_count / 3; t++) {
+        double n[3];
+        cross_of(mesh, t, n);
+        for (size_t i = 0; i < 3; i++) {
+            const float *normal = mesh->normals + 3 * (size_t)mesh->indices[3 * t + i];
+            if (!((double)normal[0] * n[0] + (double)normal[1] * n[1] + (double)normal[2] * n[2] >
+                  0))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* The texture coordinates at the vertex at this position whose normal looks most along `normal`. */
+static const float *tex_at(const plr_mesh *mesh, float x, float y, float z, const float normal[3]) {
+    const float *found = NULL;
+    float best = -2;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->positions + 3 * i, *n = mesh->normals + 3 * i;
+        float along = n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2];
+        if (fabsf(p[0] - x) + fabsf(p[1] - y) + fabsf(p[2] - z) < 1e-5f && along > best + 1e-6f) {
+            best = along;
+            found = mesh->tex_coords + 4 * i;
+        }
+    }
+    static const float none[4] = {-9, -9, -9, -9};
+    return found ? found : none;
+}
+
+static void test_box(void) {
+    fixture f = build("Box { size 1 2 3 }");
+    CHECK(f.built && f.mesh.kind == PLR_MESH_TRIANGLES && !f.mesh.two_sided);
+    CHECK_INT(f.mesh.vertex_count, 24);
+    CHECK_INT(euler_number(&f.mesh), 2);
+    CHECK_NEAR(area_of(&f.mesh), 22, 1e-6);
+    CHECK_NEAR(volume_of(&f.mesh), 6, 1e-6);
+    CHECK(faces_outward(&f.mesh));
+    CHECK_NEAR(f.mesh.bounds[0][2], -1.5, 0);
+    CHECK_NEAR(f.mesh.bounds[1][1], 1, 0);
+    const float *t = tex_at(&f.mesh, 0.5f, -1, 1.5f, (float[]){0, 0, 1});
+    CHECK(t[0] == 1 && t[1] == 0 && t[3] == 1); /* front, lower right */
+    t = tex_at(&f.mesh, 0.5f, -1, -1.5f, (float[]){0, 0, -1});
+    CHECK(t[0] == 0 && t[1] == 0); /* back, lower left as seen from behind */
+    t = tex_at(&f.mesh, -0.5f, 1, 1.5f, (float[]){0, 1, 0});
+    CHECK(t[0] == 0 && t[1] == 0); /* top: bottom of the texture at the front */
+    t = tex_at(&f.mesh, -0.5f, -1, -1.5f, (float[]){0, -1, 0});
+    CHECK(t[0] == 0 && t[1] == 0); /* bottom: at the back */
+    finish(&f);
+    f = build("Box { solid FALSE }");
+    CHECK(f.built && f.mesh.two_sided);
+    finish(&f);
+}
+
+static void of_sphere(const float *position, double normal[3]) {
+    for (int i = 0; i < 3; i++)
+        normal[i] = (double)position[i] / 2;
+}
+
+static void test_sphere(void) {
+    fixture f = build("Sphere { radius 2 }");
+    CHECK_INT(euler_number(&f.mesh), 2);
+    CHECK_NEAR(volume_of(&f.mesh), 32 * PI / 3, 0.1);
+    CHECK_NEAR(area_of(&f.mesh), 16 * PI, 0.1);
+    CHECK(volume_of(&f.mesh) < 32 * PI / 3); /* inscribed */
+    CHECK_NEAR(normal_error(&f.mesh, of_sphere), 0, 1e-6);
+    CHECK(faces_outward(&f.mesh));
+    static const float front[3] = {0, 0, 1}, left[3] = {-1, 0, 0};
+    const float *t = tex_at(&f.mesh, 0, 0, 2, front);
+    CHECK_NEAR(t[0], 0.5, 1e-6);
+    CHECK_NEAR(t[1], 0.5, 1e-6);
+    t = tex_at(&f.mesh, -2, 0, 0, left);
+    CHECK_NEAR(t[0], 0.25, 1e-6); /* from the back counterclockwise as seen from above */
+    t = tex_at(&f.mesh, 0, 2, 0, left);
+    CHECK_NEAR(t[1], 1, 0);
+    finish(&f);
+}
+
+static void test_cone_and_cylinder(void) {
+    fixture f = build("Cone { bottomRadius 1 height 3 }");
+    CHECK_INT(euler_number(&f.mesh), 2);
+    CHECK_NEAR(volume_of(&f.mesh), PI, 0.01);
+    CHECK_NEAR(area_of(&f.mesh), PI * sqrt(10) + PI, 0.02);
+    CHECK(faces_outward(&f.mesh));
+    const float *n = f.mesh.normals; /* the side comes first: its lower vertex at the back */
+    CHECK_NEAR(n[1], 1 / sqrt(10), 1e-6);
+    CHECK_NEAR(n[2], -3 / sqrt(10), 1e-6);
+    finish(&f);
+
+    f = build("Cylinder { radius 2 height 0.5 }");
+    CHECK_INT(euler_number(&f.mesh), 2);
+    CHECK_NEAR(volume_of(&f.mesh), 2 * PI, 0.01);
+    CHECK(faces_outward(&f.mesh));
+    const float *t = tex_at(&f.mesh, 0, 0.25f, 2, (float[]){0, 1, 0});
+    CHECK(fabsf(t[0] - 0.5f) < 1e-6f && fabsf(t[1]) < 1e-6f); /* top: its bottom at the front */
+    t = tex_at(&f.mesh, 0, -0.25f, 2, (float[]){0, -1, 0});
+    CHECK(fabsf(t[0] - 0.5f) < 1e-6f && fabsf(t[1] - 1) < 1e-6f); /* bottom: its top at the front */
+    finish(&f);
+
+    f = build("Cylinder { side FALSE top FALSE }");
+    CHECK(f.built);
+    CHECK_NEAR(area_of(&f.mesh), PI, 0.01);
+    finish(&f);
+    f = build("Cone { side FALSE bottom FALSE }");
+    CHECK(!f.built && !plr_diags_count_of(f.diags, PLR_ERROR));
+    finish(&f);
+}
+
+#define CUBE                                                                                       \
+    "coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0, 0 0 1, 1 0 1, 1 1 1, 0 1 1 ] } "       \
+    "coordIndex [ 3 2 1 0 -1 4 5 6 7 -1 0 1 5 4 -1 2 3 7 6 -1 1 2 6 5 -1 3 0 4 7 ] "
+
+static void test_faces_and_crease(void) {
+    fixture f = build("IndexedFaceSet { " CUBE " }");
+    CHECK_INT(f.mesh.vertex_count, 24); /* flat: creaseAngle 0 */
+    CHECK_INT(f.mesh.index_count, 36);
+    CHECK_INT(euler_number(&f.mesh), 2);
+    CHECK_NEAR(volume_of(&f.mesh), 1, 1e-6);
+    CHECK(faces_outward(&f.mesh));
+    finish(&f);
+    f = build("IndexedFaceSet { creaseAngle 1.5 " CUBE " }");
+    CHECK_INT(f.mesh.vertex_count, 24); /* a cube's angles are larger: 1.5708 */
+    finish(&f);
+    f = build("IndexedFaceSet { creaseAngle 1.6 " CUBE " }");
+    CHECK_INT(f.mesh.vertex_count, 8);
+    bool diagonal = f.built;
+    for (size_t i = 0; i < (size_t)f.mesh.vertex_count * 3; i++) {
+        float expected = (f.mesh.positions[i] > 0.5f ? 1.0f : -1.0f) / sqrtf(3);
+        diagonal = diagonal && fabsf(f.mesh.normals[i] - expected) < 1e-6f;
+    }
+    CHECK(diagonal);
+    finish(&f);
+    f = build("IndexedFaceSet { creaseAngle 3.2 " CUBE " }");
+    CHECK_INT(f.mesh.vertex_count, 8);
+    finish(&f);
+    /* two faces meet along one edge at 45 degrees: smooth there, and nowhere else */
+    f = build(
+        "IndexedFaceSet { creaseAngle 0.8 coordIndex [ 0 1 2 3 -1 1 4 5 2 ] coord Coordinate {"
+        " point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0, 2 0 -1, 2 1 -1 ] } }");
+    CHECK_INT(f.mesh.vertex_count, 6);
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { creaseAngle 0.7 coordIndex [ 0 1 2 3 -1 1 4 5 2 ] coord Coordinate {"
+        " point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0, 2 0 -1, 2 1 -1 ] } }");
+    CHECK_INT(f.mesh.vertex_count, 8);
+    finish(&f);
+}
+
+static void test_clockwise(void) {
+    fixture f = build("IndexedFaceSet { ccw FALSE coordIndex [ 0 1 2 ] coord Coordinate { point "
+                      "[ 0 0 0, 1 0 0, 0 1 0 ] } }");
+    CHECK(f.built && f.mesh.clockwise);
+    CHECK_NEAR(f.mesh.normals[2], -1, 0); /* the front is where corners run clockwise */
+    finish(&f);
+}
+
+/* A star of n points: outer radius 1, inner radius r. Its area is n r sin(pi / n). */
+static char *star(int points, double inner, bool convex) {
+    size_t size = (size_t)points * 120 + 200, used;
+    char *text = malloc(size);
+    used = (size_t)snprintf(text, size, "IndexedFaceSet { convex %s coord Coordinate { point [",
+                            convex ? "TRUE" : "FALSE");
+    for (int i = 0; i < 2 * points; i++) {
+        double radius = i % 2 ? inner : 1, angle = PI * i / points;
+        used += (size_t)snprintf(text + used, size - used, " %.9f 0 %.9f,", radius * sin(angle),
+                                 radius * cos(angle));
+    }
+    used += (size_t)snprintf(text + used, size - used, "] } coordIndex [");
+    for (int i = 0; i < 2 * points; i++)
+        used += (size_t)snprintf(text + used, size - used, " %d", i);
+    snprintf(text + used, size - used, " ] }");
+    return text;
+}
+
+static void test_concave(void) {
+    char *text = star(5, 0.3, false);
+    fixture f = build(text);
+    CHECK_INT(f.mesh.index_count, 8 * 3);
+    CHECK_NEAR(area_of(&f.mesh), 5 * 0.3 * sin(PI / 5), 1e-6);
+    CHECK(faces_outward(&f.mesh)); /* no triangle is turned over */
+    finish(&f);
+    free(text);
+    text = star(20000, 0.99, false);
+    f = build(text);
+    CHECK_NEAR(area_of(&f.mesh), 20000 * 0.99 * sin(PI / 20000), 1e-4);
+    finish(&f);
+    free(text);
+    /* a comb, whose teeth share one line, with corners that do not turn */
+    f = build("IndexedFaceSet { convex FALSE coordIndex [ 0 1 2 3 4 5 6 7 8 9 10 11 12 ] "
+              "coord Coordinate { point [ 0 0 0, 2 0 0, 5 0 0, 5 2 0, 4 2 0, 4 1 0, 3 1 0, 3 2 0, "
+              "2 2 0, 2 1 0, 1 1 0, 1 2 0, 0 2 0 ] } }");
+    CHECK_NEAR(area_of(&f.mesh), 8, 1e-6);
+    CHECK_NEAR(volume_of(&f.mesh), 0, 1e-6);
+    finish(&f);
+    /* one that crosses itself, and one without area: as many triangles as ever, no crash */
+    f = build(
+        "IndexedFaceSet { convex FALSE coordIndex [ 0 1 2 3 4 -1 0 0 0 0 0 ] coord Coordinate "
+        "{ point [ 0 1 0, -0.6 -0.8 0, 0.95 0.3 0, -0.95 0.3 0, 0.6 -0.8 0 ] } }");
+    CHECK_INT(f.mesh.index_count, 18);
+    finish(&f);
+}
+
+/* A long band wound around its end: no ears but at its two ends. */
+static void test_spiral(void) {
+    enum {
+        HALF = 5000,
+        COUNT = 2 * HALF
+    };
+    char *text = malloc(COUNT * 60 + 200);
+    size_t size = COUNT * 60 + 200, used;
+    used = (size_t)snprintf(text, size, "IndexedFaceSet { convex FALSE coord Coordinate { point [");
+    double(*points)[2] = malloc(COUNT * sizeof *points), area = 0;
+    for (int i = 0; i < COUNT; i++) {
+        int step = i < HALF ? i : COUNT - 1 - i;
+        double angle = step * 0.05, radius = 1 + step * 0.01 + (i < HALF ? 0 : 0.5);
+        points[i][0] = radius * cos(angle);
+        points[i][1] = radius * sin(angle);
+        used +=
+            (size_t)snprintf(text + used, size - used, " %.9f %.9f 0,", points[i][0], points[i][1]);
+    }
+    used += (size_t)snprintf(text + used, size - used, "] } coordIndex [");
+    for (int i = 0; i < COUNT; i++)
+        used += (size_t)snprintf(text + used, size - used, " %d", i);
+    snprintf(text + used, size - used, " ] }");
+    for (int i = 0; i < COUNT; i++)
+        area += (points[i][0] * points[(i + 1) % COUNT][1] -
+                 points[(i + 1) % COUNT][0] * points[i][1]) /
+                2;
+    fixture f = build(text);
+    CHECK_NEAR(area_of(&f.mesh) / fabs(area), 1, 1e-5);
+    CHECK(f.built && faces_outward(&f.mesh));
+    finish(&f);
+    free(points);
+    free(text);
+}
+
+static void test_default_mapping(void) {
+    fixture f = build("IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point "
+                      "[ 1 5 0, 3 5 0, 3 5 -8, 1 5 -8 ] } }");
+    static const float up[3] = {0, 1, 0};
+    const float *t = tex_at(&f.mesh, 1, 5, -8, up);
+    CHECK(t[0] == 0 && t[1] == 0); /* s along z (longest), t along x */
+    t = tex_at(&f.mesh, 3, 5, 0, up);
+    CHECK(t[0] == 1 && t[1] == 0.25f);
+    finish(&f);
+    f = build("IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point "
+              "[ 0 0 0, 2 0 0, 2 2 0, 0 2 0 ] } }");
+    t = tex_at(&f.mesh, 2, 0, 0, (float[]){0, 0, 1});
+    CHECK(t[0] == 1 && t[1] == 0); /* equal sides: x before y */
+    finish(&f);
+}
+
+static void test_bindings(void) {
+    fixture f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 -1 0 2 3 ] coord Coordinate { point [ 0 0 0, 1 0 0, 1 "
+        "1 0,"
+        " 0 1 0 ] } colorPerVertex FALSE colorIndex [ 1 0 ] color Color { color [ 1 0 0, 0 1 0 ] } "
+        "normalPerVertex FALSE normal Normal { vector [ 0 0 2, 0 1 0 ] } "
+        "texCoordIndex [ 3 2 1 -1 3 1 0 ] texCoord TextureCoordinate { point [ 0 0, .1 0, .2 0, .3 "
+        "0 ] "
+        "} }");
+    CHECK(f.built && f.mesh.vertex_count == 6);
+    if (f.built) {
+        size_t a = f.mesh.indices[0], b = f.mesh.indices[3];
+        CHECK(f.mesh.colors[4 * a + 1] == 1 && f.mesh.colors[4 * a + 3] == 1); /* colour 1: green */
+        CHECK(f.mesh.colors[4 * b] == 1 && f.mesh.colors[4 * b + 1] == 0);
+        CHECK_NEAR(f.mesh.normals[3 * a + 2], 1, 0); /* brought to length 1 */
+        CHECK_NEAR(f.mesh.normals[3 * b + 1], 1, 0);
+        CHECK_NEAR(f.mesh.tex_coords[4 * a], 0.3f, 0);
+        CHECK_NEAR(f.mesh.tex_coords[4 * (size_t)f.mesh.indices[5]], 0, 0);
+    }
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 ] coord CoordinateDouble { point [ 0 0 0, 1 0 0, 0 1 "
+        "0 ] } color ColorRGBA { color [ 1 0 0 .5, 0 1 0 1, 0 0 1 0 ] } texCoord "
+        "TextureCoordinate4D { point [ 1 2 3 4, 0 0 0 1, 0 0 0 1 ] } attrib [ "
+        "FloatVertexAttribute { name \"heat\" numComponents 2 value [ 1 2 3 4 5 6 ] } ] }");
+    CHECK(f.built && f.mesh.vertex_count == 3);
+    CHECK(f.built && f.mesh.colors[3] == 0.5f && f.mesh.colors[11] == 0);
+    CHECK(f.built && f.mesh.tex_coords[3] == 4);
+    CHECK(f.built && f.mesh.attribute_count == 1 && f.mesh.attributes[0].components == 2);
+    CHECK(f.built && strcmp(f.mesh.attributes[0].name, "heat") == 0 &&
+          f.mesh.attributes[0].values[5] == 6);
+    finish(&f);
+}
+
+static void test_triangle_nodes(void) {
+    static const char *const square = "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0 ] }";
+    static const struct {
+        const char *before;
+        double area;
+        unsigned vertices;
+    } cases[] = {
+        {"IndexedTriangleSet { index [ 0 1 2 2 1 3 ] ", 1, 4},
+        {"IndexedTriangleStripSet { index [ 0 1 2 3 -1 ] ", 1, 4},
+        {"IndexedTriangleFanSet { index [ 0 1 3 2 ] ", 1, 4},
+        {"IndexedQuadSet { index [ 0 1 3 2 ] ", 1, 4},
+        {"TriangleStripSet { stripCount [ 4 ] ", 1, 4},
+        {"TriangleFanSet { fanCount [ 3 ] ", 0.5, 3},
+        {"TriangleSet { ", 0.5, 3},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "%s %s }", cases[i].before, square);
+        fixture f = build(text);
+        CHECK_NEAR(area_of(&f.mesh), cases[i].area, 1e-6);
+        CHECK_INT(f.mesh.vertex_count, cases[i].vertices);
+        CHECK(f.built && faces_outward(&f.mesh) && f.mesh.normals[2] == 1);
+        finish(&f);
+    }
+    fixture f = build("QuadSet { coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } }");
+    CHECK_NEAR(area_of(&f.mesh), 1, 1e-6);
+    finish(&f);
+    f = build("Rectangle2D { size 4 6 }");
+    CHECK_NEAR(area_of(&f.mesh), 24, 1e-6);
+    CHECK(f.built && f.mesh.two_sided && f.mesh.normals[2] == 1);
+    finish(&f);
+}
+
+static void test_lines_and_points(void) {
+    fixture f =
+        build("IndexedLineSet { coordIndex [ 0 1 2 -1 2 0 ] colorPerVertex FALSE color Color { "
+              "color [ 1 0 0, 0 0 1 ] } coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } }");
+    CHECK(f.built && f.mesh.kind == PLR_MESH_LINES);
+    CHECK_INT(f.mesh.index_count, 6);
+    CHECK_INT(f.mesh.vertex_count, 5); /* each line has its own colour */
+    CHECK(!f.mesh.normals && !f.mesh.tex_coords);
+    finish(&f);
+    f = build(
+        "LineSet { vertexCount [ 2 3 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 0 2 0, 5 5 "
+        "5 ] } }");
+    CHECK_INT(f.mesh.index_count, 6);
+    CHECK_NEAR(f.mesh.bounds[1][2], 5, 0);
+    finish(&f);
+    f = build(
+        "PointSet { coord Coordinate { point [ 0 0 0, 1 2 3 ] } color Color { color [ 1 0 0, 0 1 0 "
+        "] } }");
+    CHECK(f.built && f.mesh.kind == PLR_MESH_POINTS && f.mesh.vertex_count == 2);
+    CHECK(f.built && f.mesh.colors[5] == 1);
+    finish(&f);
+}
+
+static void test_elevation(void) {
+    fixture f =
+        build("ElevationGrid { xDimension 3 zDimension 2 xSpacing 2 zSpacing 5 height [ 0 1 2 0 1 "
+              "2 ] creaseAngle 1 }");
+    CHECK_NEAR(area_of(&f.mesh), 4 * 5 * sqrt(1.25), 1e-5);
+    CHECK_INT(f.mesh.vertex_count, 6);
+    CHECK(f.built && faces_outward(&f.mesh) && f.mesh.normals[1] > 0);
+    const float *t = tex_at(&f.mesh, 2, 1, 5, (float[]){0, 1, 0});
+    CHECK(t[0] == 0.5f && t[1] == 1);
+    CHECK_NEAR(f.mesh.normals[0], -1 / sqrt(5), 1e-6);
+    finish(&f);
+    f = build("ElevationGrid { xDimension 2147483647 zDimension 2147483647 height [ 0 1 ] }");
+    CHECK(!f.built);
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+}
+
+static void test_hostile(void) {
+    fixture f = build(
+        "IndexedFaceSet {\n coordIndex [ 0 1 2 -1 0 1 99 -1 2 1 -7 -1 0 2147483647 1 ]\n coord "
+        "Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } }");
+    CHECK_INT(f.mesh.index_count, 3); /* the sound face stays */
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    for (size_t i = 0; i < plr_diags_count(f.diags); i++)
+        if (plr_diags_get(f.diags, i)->code == PLR_CODE_BAD_GEOMETRY) {
+            CHECK_INT(plr_diags_get(f.diags, i)->place.line, 4); /* where coordIndex stands */
+            CHECK_STR(plr_diags_get(f.diags, i)->message,
+                      "there is no point 99, only 0 to 2; 3 faces are left out");
+        }
+    finish(&f);
+    f = build("IndexedFaceSet { coordIndex [ 0 1 2 ] }");
+    CHECK(!f.built);
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } "
+        "color Color { color [ 1 0 0 ] } }");
+    CHECK(!f.built); /* too few colours */
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+    f = build("IndexedFaceSet { coordIndex [ -1 -1 0 1 -1 0 1 2 -1 -1 ] coord Coordinate { point [ "
+              "0 0 0, 1 "
+              "0 0, 0 1 0 ] } }");
+    CHECK_INT(f.mesh.index_count, 3);
+    CHECK_INT(plr_diags_count_of(f.diags, PLR_ERROR), 0);
+    finish(&f);
+    f = build("TriangleFanSet { fanCount [ 3 2000000000 3 ] coord Coordinate { point [ 0 0 0, 1 0 "
+              "0, 0 1 0, "
+              "0 0 1 ] } }");
+    CHECK_INT(f.mesh.index_count, 3);
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+    f = build("IndexedFaceSet { coordIndex [ 0 0 0 ] coord Coordinate { point [ 1 1 1 ] } }");
+    CHECK(f.built && f.mesh.normals[2] == 1); /* no area: no NaN */
+    finish(&f);
+    f = build("Extrusion { }");
+    CHECK(!f.built);
+    CHECK_INT(count_code(&f, PLR_CODE_NOT_DRAWN), 1);
+    finish(&f);
+}
+
+int main(void) {
+    test_box();
+    test_sphere();
+    test_cone_and_cylinder();
+    test_faces_and_crease();
+    test_clockwise();
+    test_concave();
+    test_spiral();
+    test_default_mapping();
+    test_bindings();
+    test_triangle_nodes();
+    test_lines_and_points();
+    test_elevation();
+    test_hostile();
+    return tap_done();
+}
