@@ -95,10 +95,10 @@ typedef struct plr_picture {
 PLR_API bool plr_view_draw(plr_view *view, const plr_draw_desc *desc, plr_picture *picture,
                            plr_diags *diags);
 PLR_API void plr_picture_free(plr_picture *picture);
-/* Draws into the framebuffer that is bound (colour and depth, not multisampled), in the viewport that
- * is set, over what it holds and without a background, with the host's camera: projection and
- * world-to-eye matrices of 16 numbers, column by column; NULL: those of the scene's viewpoint. The GL
- * state that is changed is set back. Needs GL. */
+/* Draws into the framebuffer that is bound (colour and depth, not multisampled), in the viewport
+ * that is set, over what it holds and without a background, with the host's camera: projection and
+ * world-to-eye matrices of 16 numbers, column by column; NULL: those of the scene's viewpoint. The
+ * GL state that is changed is set back. Needs GL. */
 PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
                                 plr_diags *diags);
 
