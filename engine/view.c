@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/dialect.h"
 #include "engine/state.h"
 #include "engine/volume.h"
 
@@ -65,6 +66,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
                       view->desc.viewpoint);
         return false;
     }
+    view->desc.dialect = plr_dialect(&view->flat, view->desc.dialect, diags);
     plr_background_prepare(view);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/dialect.h"
 #include "engine/volume.h"
 
 /* ---- Data
@@ -208,7 +209,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
     plr_image ramp = {2, 1, 1, 4, PLR_FLOAT32, calloc(8, sizeof(float))};
     if (!ramp.samples)
         longjmp(*view->arena.out_of_memory, 1);
-    bool reversed = view->desc.dialect == 2005;
+    bool reversed = view->desc.dialect == PLR_DIALECT_2005;
     for (int i = 0; i < 8;
          i++) /* the default ramp: 0 is black and transparent, 1 white and opaque */
         ((float *)ramp.samples)[i] = (i % 4 == 3 && reversed) ? (float)(i < 4) : (float)(i >= 4);
