@@ -367,6 +367,39 @@ static void test_spiral(void) {
     free(text);
 }
 
+/* Simple polygons with random radii around a centre, in tilted planes. */
+static void test_random_polygons(void) {
+    uint32_t seed = 1;
+    int wrong = 0;
+    for (int round = 0; round < 200; round++) {
+        char text[8000];
+        size_t used = (size_t)snprintf(text, sizeof text,
+                                       "IndexedFaceSet { convex FALSE coord Coordinate { point [");
+        int count = 4 + round % 60;
+        double area = 0, previous = 0, first = 0;
+        double tilt = round * 0.37;
+        for (int i = 0; i < count; i++) {
+            seed = seed * 1664525 + 1013904223;
+            double radius = 0.05 + (seed >> 16) / 65536.0, angle = 2 * PI * i / count;
+            double x = radius * cos(angle), y = radius * sin(angle);
+            used += (size_t)snprintf(text + used, sizeof text - used, " %.9f %.9f %.9f,", x,
+                                     y * cos(tilt), y * sin(tilt));
+            area += i ? previous * radius * sin(2 * PI / count) / 2 : 0;
+            first = i ? first : radius;
+            previous = radius;
+        }
+        area += previous * first * sin(2 * PI / count) / 2;
+        used += (size_t)snprintf(text + used, sizeof text - used, "] } coordIndex [");
+        for (int i = 0; i < count; i++)
+            used += (size_t)snprintf(text + used, sizeof text - used, " %d", i);
+        snprintf(text + used, sizeof text - used, " ] }");
+        fixture f = build(text);
+        wrong += !f.built || fabs(area_of(&f.mesh) - area) > 1e-5 || !faces_outward(&f.mesh);
+        finish(&f);
+    }
+    CHECK_INT(wrong, 0);
+}
+
 static void test_default_mapping(void) {
     fixture f = build("IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point "
                       "[ 1 5 0, 3 5 0, 3 5 -8, 1 5 -8 ] } }");
@@ -542,6 +575,7 @@ int main(void) {
     test_clockwise();
     test_concave();
     test_spiral();
+    test_random_polygons();
     test_default_mapping();
     test_bindings();
     test_triangle_nodes();
