@@ -78,6 +78,11 @@ static bool is_repetition(const plr_diags *diags, const plr_diag *diag) {
     return false;
 }
 
+static char *format_message(plr_arena *arena, const char *format, va_list arguments)
+    PLR_PRINTF(2, 0);
+static void add(plr_diags *diags, plr_diag diag, const char *format, va_list arguments)
+    PLR_PRINTF(3, 0);
+
 static char *format_message(plr_arena *arena, const char *format, va_list arguments) {
     va_list again;
     va_copy(again, arguments);

@@ -118,6 +118,7 @@ void options_list(void) {
 /* ---- Reading ------------------------------------------------------------------------------------
  */
 
+static int fail_usage(const char *command, const char *format, va_list rest) PLR_PRINTF(2, 0);
 static int fail_usage(const char *command, const char *format, va_list rest) {
     fprintf(stderr, "plugray%s%s: ", *command ? " " : "", command);
     vfprintf(stderr, format, rest);

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""The command line: help, versions, wrong usage: usage.py PLUGRAY"""
+
+import sys
+
+from command import Command
+from tap import check, check_equal, done
+
+plugray = Command(sys.argv[1])
+plugray.write("box.x3dv", "#X3D V3.3 utf8\nShape { geometry Box { } }\n")
+plugray.write("base.frag", "#version 330 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n")
+
+version = plugray.expect(0, "--version")
+check(version.stdout.startswith("plugray ") and version.stdout.count("\n") == 1, "the version is a line")
+for command in ("render", "link", "dump", "check", "plugs", "info"):
+    text = plugray.expect(0, command, "--help")
+    check(text.stdout.startswith(f"Usage: plugray {command}") and not text.stderr,
+          f"{command} --help says how it is used")
+    check(f"  {command} " in plugray.run("--help").stdout, f"--help names {command}")
+    check("--error" not in text.stdout, f"{command} --help names nothing that is not there")
+
+WRONG = [
+    ([], "which command?"),
+    (["paint"], "there is no command paint"),
+    (["chart", "box.x3dv", "-o", "chart.png"], "chart is not in this version"),
+    (["studio", "box.x3dv"], "studio is not in this version"),
+    (["render"], "SCENE is missing"),
+    (["render", "box.x3dv"], "at least one of -o, --probe, --stats is needed"),
+    (["render", "box.x3dv", "other.x3dv", "-o", "a.png"], "one word too many: other.x3dv"),
+    (["render", "box.x3dv", "-o"], "-o lacks its value"),
+    (["render", "box.x3dv", "-o", "a.jpg"], "ends in .png, .exr or .npy"),
+    (["render", "box.x3dv", "-o", "a.png", "--fast"], "there is no option --fast"),
+    (["render", "box.x3dv", "-o", "a.png", "--transparent=yes"], "--transparent takes no value"),
+    (["render", "box.x3dv", "-o", "a.png", "--size", "640"], "--size takes WxH"),
+    (["render", "box.x3dv", "-o", "a.png", "--size", "0x10"], "--size takes WxH"),
+    (["render", "box.x3dv", "-o", "a.png", "--size", "10x99999"], "--size takes WxH"),
+    (["render", "box.x3dv", "-o", "a.png", "--size", "10x10 "], "--size takes WxH"),
+    (["render", "box.x3dv", "-o", "a.png", "--backend", "vulkan"], "--backend takes auto|egl|osmesa"),
+    (["render", "box.x3dv", "-o", "a.png", "--step", "0"], "--step takes a number above 0"),
+    (["render", "box.x3dv", "-o", "a.png", "--step", "nan"], "--step takes a number above 0"),
+    (["render", "box.x3dv", "-o", "a.png", "--step", "1x"], "--step takes a number above 0"),
+    (["render", "box.x3dv", "-o", "a.png", "--samples", "0"], "--samples takes a whole number"),
+    (["render", "box.x3dv", "-o", "a.png", "--repeat", "1.5"], "--repeat takes a whole number"),
+    (["render", "box.x3dv", "--stats=xml"], "--stats takes json or nothing"),
+    (["render", "box.x3dv", "--probe", "1"], "--probe takes X,Y"),
+    (["render", "box.x3dv", "--probe", "-1,0"], "--probe takes X,Y"),
+    (["render", "box.x3dv", "--probe", "640,0"], "outside the 640x480 pixels"),
+    (["render", "box.x3dv", "--size", "8x4", "--probe", "0,4"], "outside the 8x4 pixels"),
+    (["render", "box.x3dv", "-o", "a.png", "--dialect", "2006"], "--dialect takes 2005|final"),
+    (["render", "box.x3dv", "-o", "a.png", "--set", "Box.size"], "--set takes DEF.field=VALUE"),
+    (["render", "box.x3dv", "-o", "a.png", "--set", "Nobody.size=1"], "no node has the DEF name Nobody"),
+    (["dump", "box.x3dv"], "-d DIR is missing"),
+    (["check"], "SCENE is missing"),
+    (["check", "box.x3dv", "--format", "xml"], "--format takes text|json|sarif"),
+    (["link"], "BASE is missing"),
+    (["link", "base.frag", "--stage", "tess"], "--stage takes vertex|geometry|fragment"),
+    (["link", "base.frag", "--glsl", "120"], "--glsl takes 330|410|450|300es"),
+    (["link", "base.frag", "--stage", "vertex"], "base.frag has no vertex stage"),
+]
+for arguments, message in WRONG:
+    run = plugray.expect(2, *arguments, stderr=message)
+    check(not run.stdout, "nothing on standard output")
+for option in ("--error", "--time", "--frames", "--fps", "--pick"):
+    plugray.expect(2, "render", "box.x3dv", "-o", "a.png", option, "1",
+                   stderr=f"{option} is not in this version")
+check_equal(sorted(path.name for path in plugray.folder.iterdir()), ["base.frag", "box.x3dv"],
+            "wrong usage writes no file")
+done()
