@@ -82,7 +82,7 @@ static bool link_stages(glslang_shader_t *const shaders[PLR_STAGE_COUNT],
     for (int stage = 0; stage < PLR_STAGE_COUNT; stage++)
         if (shaders[stage])
             glslang_program_add_shader(program, shaders[stage]);
-    bool linked = glslang_program_link(program, checking.messages);
+    bool linked = glslang_program_link(program, (int)checking.messages);
     take_log(glslang_program_get_info_log(program), !linked, messages);
     glslang_program_delete(program);
     return linked;
@@ -177,7 +177,7 @@ bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, u
     if (counted) {
         glslang_program_add_shader(program, shader);
         counted =
-            glslang_program_link(program, counting.messages) && glslang_program_map_io(program);
+            glslang_program_link(program, (int)counting.messages) && glslang_program_map_io(program);
     }
     if (counted) {
         glslang_spv_options_t options = {.strip_debug_info = true};
