@@ -168,7 +168,10 @@ bool plr_image_decode(const char *data, size_t length, plr_place place, plr_imag
     memset(image, 0, sizeof *image);
     if (plr_volume_sniff(data, length) == PLR_VOLUME_NRRD)
         return decode_nrrd(data, length, place, image, diags);
-    const char *fault = plr_image_decode_stb(data, length, image);
+    const char *fault = plr_image_is_jpeg(data, length) ? plr_image_decode_jpeg(data, length, image)
+                        : plr_image_is_hdr(data, length)
+                            ? plr_image_decode_hdr(data, length, image)
+                            : plr_image_decode_stb(data, length, image);
     if (fault) {
         plr_diags_add(diags, PLR_CODE_BAD_IMAGE, place, "this image cannot be read: %s", fault);
         return false;

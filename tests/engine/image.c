@@ -96,6 +96,49 @@ static void test_hdr(void) {
     plr_image_free(&image);
 }
 
+static bool decode_hdr(const char *sizes, const char *pixels, size_t length, plr_image *image,
+                       plr_diags *diags) {
+    static file f;
+    memset(&f, 0, sizeof f);
+    add_text(&f, "#?RGBE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n");
+    add_text(&f, sizes);
+    add_bytes(&f, pixels, length);
+    return decode(&f, image, diags);
+}
+
+static void test_hdr_runs(void) {
+    plr_image image;
+    plr_diags *diags = plr_diags_create(NULL);
+    /* component by component: a run of 8; 7 literal bytes and one; a run of 8; a run of 8 */
+    CHECK(decode_hdr("-Y 1 +X 8\n", "\2\2\0\10\210\100\7\1\2\3\4\5\6\7\1\10\210\3\210\210", 20,
+                     &image, NULL));
+    for (uint32_t x = 0; x < 8; x++) {
+        const float *pixel = (const float *)image.samples + 3 * x;
+        CHECK(pixel[0] == 64 && pixel[1] == (float)(x + 1) && pixel[2] == 3);
+    }
+    plr_image_free(&image);
+    /* whole pixels: one, three more like it; the lower row comes first */
+    CHECK(decode_hdr("+Y 2 +X 4\n", "\1\2\3\210\1\1\1\3\4\5\6\210\1\1\1\3", 16, &image, NULL));
+    CHECK(is_image(&image, 4, 2, 3, PLR_FLOAT32));
+    CHECK(plr_image_sample(&image, 3, 0, 0, 1) == 2 && plr_image_sample(&image, 3, 1, 0, 1) == 5);
+    plr_image_free(&image);
+    CHECK(!decode_hdr("-Y 1 +X 8\n", "\2\2\0\10\0\0\0\0\0\0", 10, &image, diags));
+    CHECK(!decode_hdr("-Y 1 +X 8\n", "\2\2\0\10\211\1\210\1\210\1\210\1", 12, &image, NULL));
+    CHECK(!decode_hdr("-Y 1 +X 2\n", "\1\1\1\2\1\1\1\2", 8, &image, NULL));
+    CHECK(!decode_hdr("-Y 1 +X 2\n", "\2\2\2\2\1\1\1\2", 8, &image, NULL));
+    CHECK_STR(diag_text(diags, 0),
+              "scene.x3d:9:12 error this image cannot be read: it is damaged or cut off");
+    CHECK(!decode_hdr("-Y 40000 +X 2\n", "", 0, &image, diags));
+    CHECK_STR(diag_text(diags, 1),
+              "scene.x3d:9:12 error this image cannot be read: it is too large");
+    CHECK(!decode_hdr("-Y 10 +X 20000\n", "\1\2\3\210", 4, &image, diags));
+    CHECK_STR(diag_text(diags, 2), "scene.x3d:9:12 error this image cannot be read: it is cut off");
+    CHECK(!decode_hdr("+X 2 -Y 1\n", "\1\2\3\210\1\2\3\210", 8, &image, diags));
+    CHECK_STR(diag_text(diags, 3),
+              "scene.x3d:9:12 error this image cannot be read: its sizes cannot be read");
+    plr_diags_destroy(&diags);
+}
+
 static void test_bmp(void) {
     static file f;
     plr_image image;
@@ -189,6 +232,12 @@ static void test_jpeg(void) {
     CHECK(plr_image_sample(&image, 3, 0, 0, 0) == 50 / 255.0);
     CHECK(plr_image_sample(&image, 3, 15, 0, 0) == 200 / 255.0);
     plr_image_free(&image);
+    /* a table of more codes than there are, then no table at all */
+    f.data[101] = 255;
+    f.data[102] = 255;
+    CHECK(!decode(&f, &image, NULL) && !image.samples);
+    f.length = 90;
+    CHECK(!decode(&f, &image, NULL));
 }
 
 /* ---- NRRD
@@ -331,6 +380,7 @@ static void test_faults(void) {
 int main(void) {
     test_png();
     test_hdr();
+    test_hdr_runs();
     test_bmp();
     test_tga();
     test_gif();
