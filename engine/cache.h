@@ -8,14 +8,16 @@
 
 typedef struct plr_cache plr_cache;
 
-/* `folder` NULL: nothing on disk. Keys hold the texts of all stages, the driver's vendor, renderer and
- * version and the cache's format; a file that is damaged in any way is deleted and compiled anew.
- * Files are written beside and renamed; the folder is kept below 64 MiB, least recently used first. */
+/* `folder` NULL: nothing on disk. Keys hold the texts of all stages, the driver's vendor, renderer
+ * and version and the cache's format; a file that is damaged in any way is deleted and compiled
+ * anew. Files are written beside and renamed; the folder is kept below 64 MiB, least recently used
+ * first. */
 plr_cache *plr_cache_create(const plr_gl *gl, const char *folder);
 void plr_cache_destroy(plr_cache **cache);
 
 /* The program of these texts (texts[stage] may be NULL), from memory, disk or the compiler; 0 if it
- * does not compile or link, with messages of the driver by stage and of linking. The cache owns it. */
+ * does not compile or link, with messages of the driver by stage and of linking. The cache owns it.
+ */
 GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT],
                          plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link);
 
