@@ -1,0 +1,145 @@
+/* Takes in the base, the library and one effect after the other; leaves the faulty ones out. */
+#include "plugs/link.h"
+
+static void say_faults(plr_linking *l, const plr_unit *unit, const plr_fault *faults,
+                       size_t count) {
+    for (size_t i = 0; i < count; i++)
+        plr_say(l, faults[i].code, plr_unit_place(unit, faults[i].offset), "%s", faults[i].message);
+}
+
+/* Evaluates conditionals and cuts: false if a unit has a fault. */
+static bool take_text(plr_linking *l, plr_scope *scope) {
+    bool good = true, macros = false;
+    for (uint32_t u = 0; u < scope->unit_count; u++)
+        macros |= scope->units[u].lexed->conditional;
+    if (macros)
+        plr_begin_macros(l, scope);
+    for (uint32_t u = 0; u < scope->unit_count; u++) {
+        plr_unit *unit = &scope->units[u];
+        const plr_lexed *lexed = unit->lexed;
+        say_faults(l, unit, lexed->warnings.items, lexed->warnings.count);
+        if (lexed->faults.count) {
+            say_faults(l, unit, lexed->faults.items, lexed->faults.count);
+            good = false;
+            if (lexed->conditional)
+                continue; /* which cannot be evaluated */
+        } else if (macros) {
+            plr_evaluate(l, unit);
+        }
+        unit->cut = &unit->reading->source->cut;
+        if (lexed->conditional) {
+            plr_cut_items(l->pass, lexed, unit->activity, &unit->own_cut);
+            unit->cut = &unit->own_cut;
+        }
+        say_faults(l, unit, unit->cut->warnings.items, unit->cut->warnings.count);
+        say_faults(l, unit, unit->cut->faults.items, unit->cut->faults.count);
+        good &= unit->cut->faults.count == 0;
+    }
+    return good;
+}
+
+/* The plugs that a faulty effect would have offered: who needs them lacks them. */
+static void note_lost(plr_linking *l, uint32_t effect) {
+    uint32_t *number = PLR_NEW(l->pass, uint32_t);
+    *number = effect;
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
+        const plr_scope *scope = plr_scope_of(l, (plr_stage)s, effect);
+        for (uint32_t u = 0; u < scope->unit_count; u++) {
+            const plr_unit *unit = &scope->units[u];
+            for (size_t i = 0; i < unit->lexed->plugs.count; i++) {
+                uint32_t gid = unit->reading->gids[unit->lexed->plugs.items[i].name];
+                *plr_table_put(l->pass, &l->lost, (uint64_t)(s + 1) << 32 | gid) = number;
+            }
+        }
+    }
+}
+
+static bool check_effect(plr_linking *l, uint32_t e) {
+    const plr_effect *effect = &l->desc->effects[e];
+    bool has_target = effect->target && *effect->target;
+    if (effect->placement == PLR_REMOVE && !has_target) {
+        plr_say(l, PLR_CODE_BAD_TARGET, effect->place, "%s: REMOVE needs a target",
+                plr_effect_text(l, e));
+        return false;
+    }
+    if ((unsigned)effect->placement > PLR_REMOVE || effect->attached > e) {
+        plr_say(l, PLR_CODE_BAD_TARGET, effect->place,
+                "%s is attached to an effect that does not come before it", plr_effect_text(l, e));
+        return false;
+    }
+    return true;
+}
+
+static void add_effect(plr_linking *l, uint32_t e) {
+    bool good = check_effect(l, e);
+    if (good && l->desc->effects[e].only_if_active && !plr_target_exists(l, e)) {
+        l->left_out[e] = true;
+        return;
+    }
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
+        plr_scope *scope = plr_scope_of(l, (plr_stage)s, e);
+        good &= take_text(l, scope);
+        good &= plr_find_functions(l, scope);
+    }
+    if (good)
+        good = plr_place_functions(l, e);
+    for (unsigned s = 0; s < PLR_STAGE_COUNT && good; s++)
+        good &= plr_define_names(l, plr_scope_of(l, (plr_stage)s, e));
+    if (!good) {
+        l->faulty[e] = true;
+        note_lost(l, e);
+        return;
+    }
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
+        plr_name_functions(l, plr_scope_of(l, (plr_stage)s, e));
+    plr_commit_calls(l);
+}
+
+/* Plugs in use, for PLUG_USED; and messages about functions that are called nowhere. */
+static void note_used(plr_linking *l, uint32_t gid) {
+    l->grown |= !l->used[gid];
+    l->used[gid] = 1;
+}
+
+static void check_placed(plr_linking *l) {
+    for (size_t i = 0; i < l->sockets.count; i++) {
+        const plr_socket *socket = l->sockets.items[i];
+        if (socket->calls.count)
+            note_used(l, socket->unit->reading->gids[socket->plug->name]);
+    }
+    for (uint32_t e = 0; e < l->effect_count; e++) {
+        for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
+            plr_scope *scope = plr_scope_of(l, (plr_stage)s, e);
+            if (l->faulty[e] || l->left_out[e])
+                continue;
+            for (uint32_t u = 0; u < scope->unit_count; u++)
+                for (plr_function *f = scope->units[u].functions; f; f = f->next) {
+                    if (!f->placed && !l->removed[e] && l->offered[f->plug])
+                        note_used(l, f->plug);
+                    if (!f->placed)
+                        plr_say_unplaced(l, &scope->units[u], f);
+                }
+        }
+    }
+}
+
+void plr_add_effects(plr_linking *l) {
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
+        plr_scope *base = plr_scope_of(l, (plr_stage)s, PLR_SCOPE_BASE(l));
+        plr_scope *library = plr_scope_of(l, (plr_stage)s, PLR_SCOPE_LIBRARY(l));
+        bool good = take_text(l, base);
+        take_text(l, library);
+        plr_define_names(l, library);
+        good &= plr_define_names(l, base);
+        l->base_fault |= !good;
+        for (uint32_t u = 0; u < base->unit_count && good; u++)
+            plr_add_sockets(l, &base->units[u]);
+    }
+    for (uint32_t e = 0; e < l->effect_count && !l->base_fault; e++)
+        if (!l->desc->effects[e].disabled)
+            add_effect(l, e);
+    if (l->base_fault)
+        return;
+    plr_order_calls(l);
+    check_placed(l);
+}

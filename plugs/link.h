@@ -1,0 +1,304 @@
+/* The state of one link. Shared by the files of the linker; each says which part it fills. */
+#ifndef PLR_PLUGS_LINK_H
+#define PLR_PLUGS_LINK_H
+
+#include "plugs/source.h"
+
+typedef struct plr_unit plr_unit;
+typedef struct plr_node plr_node;
+typedef struct plr_binding plr_binding;
+typedef struct plr_scope plr_scope;
+typedef struct plr_socket plr_socket;
+
+/* Owners of scopes besides the effects. */
+#define PLR_OWNER_BASE UINT32_MAX
+#define PLR_OWNER_LIBRARY (UINT32_MAX - 1)
+#define PLR_OWNER_HOST (UINT32_MAX - 2) /* names that effects declare and nobody owns */
+
+/* A source as this link sees it: its identifiers numbered for the whole link. */
+typedef struct plr_reading {
+    const plr_source *source;
+    const uint32_t *gids; /* by local identifier */
+} plr_reading;
+
+/* A macro as conditionals see it. */
+typedef enum plr_macro_state {
+    PLR_MACRO_UNDEFINED,
+    PLR_MACRO_UNKNOWN, /* defined in a conditional that is kept */
+    PLR_MACRO_NUMBER,
+    PLR_MACRO_TOKENS
+} plr_macro_state;
+
+typedef struct plr_macro {
+    plr_macro_state state;
+    bool host; /* written nowhere in the program */
+    bool function_like;
+    int64_t number;
+    const char *text; /* of a host's macro */
+    const plr_lexed *lexed;
+    const uint32_t *gids;
+    uint32_t first, end; /* the replacement */
+} plr_macro;
+
+typedef struct plr_edge {
+    plr_binding *symbol; /* or else */
+    struct plr_function *function;
+    struct plr_edge *next;
+} plr_edge;
+
+/* An item of a unit in this link. */
+struct plr_node {
+    plr_unit *unit;
+    const plr_item *item;
+    plr_edge *edges;               /* the symbols that its text names */
+    plr_binding *symbol;           /* of its first name */
+    struct plr_function *function; /* its first plug function */
+    bool reached, dropped, emitted, declared, entered, declaring;
+    bool undefine_before; /* another unit of the effect defined the macro otherwise */
+};
+
+/* A declaration of a symbol. */
+typedef struct plr_definition {
+    plr_node *node;
+    const plr_name *name;
+    struct plr_definition *next;
+} plr_definition;
+
+struct plr_binding {
+    uint32_t gid;
+    plr_scope *scope;
+    plr_definition *definitions, *last;
+    const char *text; /* in the program; NULL: not made yet */
+    uint32_t length;
+    uint32_t variant; /* 2 and more: a unit's own among several of the effect */
+    bool renamed, macro, function, variable, weak /* prototypes only */, reached;
+    bool builtin; /* also the name of a built-in function */
+    bool settled; /* all its declarations are in the text */
+    uint32_t stamp;
+};
+
+/* A function PLUG_xxx. */
+typedef struct plr_function {
+    plr_node *node;
+    const plr_name *name;
+    uint32_t gid;     /* of PLUG_xxx */
+    uint32_t plug;    /* gid of xxx */
+    const char *text; /* in the program */
+    uint32_t length;
+    uint32_t effect;
+    bool placed;
+    struct plr_function *next;      /* in its unit */
+    struct plr_function *next_same; /* of the same name in the effect and stage */
+} plr_function;
+
+/* A call of a function at a plug. */
+typedef struct plr_call {
+    plr_function *function;
+    uint32_t list; /* in plr_lexed.lists of the plug's source */
+} plr_call;
+
+/* A plug that stands in active text: where calls go. */
+struct plr_socket {
+    plr_unit *unit;
+    const plr_plug *plug;
+    uint32_t effect;          /* or PLR_OWNER_BASE */
+    PLR_LIST(plr_call) calls; /* in their final order after plr_order_calls */
+    bool reached;
+};
+
+struct plr_unit {
+    const plr_reading *reading;
+    const plr_lexed *lexed;
+    const plr_activity *activity; /* NULL: no conditionals */
+    plr_activity own_activity;
+    const plr_cut *cut;
+    plr_cut own_cut;
+    plr_scope *scope;
+    uint32_t index;  /* within the scope */
+    uint32_t number; /* within the link */
+    plr_node *nodes;
+    plr_binding **refs;   /* by local identifier; valid where actions say so */
+    uint8_t *actions;     /* by local identifier: plr_action */
+    plr_socket **sockets; /* by plug of the source */
+    plr_function *functions, *last_function;
+};
+
+/* What an identifier of a unit becomes. */
+typedef enum plr_action {
+    PLR_ACTION_UNKNOWN, /* not looked up yet */
+    PLR_ACTION_COPY,
+    PLR_ACTION_NAME,   /* the symbol's name in the program */
+    PLR_ACTION_SPECIAL /* depends on what follows: see emit.c */
+} plr_action;
+
+/* One effect (or base, library) in one stage. */
+struct plr_scope {
+    uint32_t owner; /* effect or PLR_OWNER_... */
+    plr_stage stage;
+    plr_unit *units;
+    uint32_t unit_count;
+    uint32_t number;              /* of scopes, for keys */
+    bool live;                    /* something of it is reached */
+    bool split;                   /* some units have names of their own */
+    PLR_LIST(uint32_t) providers; /* effects whose plugs it implements, latest first */
+};
+
+typedef struct plr_message {
+    plr_severity severity;
+    plr_code code;
+    plr_place place;
+    const char *text;
+} plr_message;
+
+/* A call that is to be added when its effect proves to be without fault. */
+typedef struct plr_pending {
+    plr_socket *socket;
+    plr_function *function;
+    uint32_t list;
+} plr_pending;
+
+/* An open addressing table of 64-bit keys (never 0). */
+typedef struct plr_table {
+    uint64_t *keys;
+    void **values;
+    size_t mask, count;
+} plr_table;
+
+typedef PLR_LIST(plr_socket *) plr_sockets;
+
+struct plr_out;
+
+typedef struct plr_linking {
+    const plr_link_desc *desc;
+    plr_arena *arena; /* lives as long as the program */
+    plr_arena *pass;  /* of one round of the fixpoint; the last one's lives as long */
+    uint32_t effect_count;
+
+    /* Identifiers of the link. */
+    PLR_LIST(plr_ident) idents;
+    uint32_t *slots;
+    size_t slot_mask;
+    plr_table readings; /* source -> plr_reading */
+    plr_macro **hosts;  /* by gid: macros of the host */
+    size_t host_capacity;
+
+    /* What conditionals ask; grows from round to round. */
+    uint8_t *used, *reads; /* by gid */
+    uint8_t *offered;      /* by gid: plugs of texts that ask */
+    uint8_t *asked;        /* by gid: PLR_ASKED_... */
+    bool dynamic, grown, all;
+
+    /* One round. */
+    plr_macro **macros; /* by gid: of the scope at hand */
+    PLR_LIST(uint32_t) touched;
+    plr_scope *scopes[PLR_STAGE_COUNT]; /* by effect, then base, library, host */
+    plr_table symbols;                  /* (scope number, gid) -> plr_binding */
+    plr_table by_plug;                  /* (stage, instance, gid) -> plr_sockets */
+    plr_table functions; /* (scope number, gid of PLUG_x) -> the first plr_function */
+    plr_table lost;      /* (stage, gid) -> effect + 1 that was faulty and would have offered it */
+    PLR_LIST(plr_socket *) sockets;
+    bool *faulty, *left_out, *active;
+    PLR_LIST(plr_message) messages;
+    uint32_t unit_count, scope_numbers;
+    uint32_t stamp;
+    uint32_t *provider_of; /* by effect: the scope that it was last noted for */
+    PLR_LIST(plr_node *) queue;
+    PLR_LIST(plr_pending) pending; /* calls of the effect at hand */
+    bool *removed;                 /* by effect: another takes its calls away */
+    uint32_t *names, *targets;     /* by effect: gids, PLR_NONE: none */
+    bool placements;               /* some effect has one */
+    plr_table targets_of;          /* (name, reach) -> a built-in effect of that name exists */
+    uint8_t stages;                /* bit: the base has the stage */
+    bool uses_color, uses_data;    /* gl_FragColor, gl_FragData */
+    uint32_t data_size;
+    bool base_fault;
+
+    /* Versions. */
+    int version;
+    bool keep_all;
+} plr_linking;
+
+enum {
+    PLR_ASKED_USED = 1,
+    PLR_ASKED_READS = 2
+};
+
+#define PLR_SCOPE_BASE(l) ((l)->effect_count)
+#define PLR_SCOPE_LIBRARY(l) ((l)->effect_count + 1)
+#define PLR_SCOPE_HOST(l) ((l)->effect_count + 2)
+
+/* table.c */
+void *plr_table_get(const plr_table *table, uint64_t key);
+/* The value's slot; NULL inside if the key is new. Valid until the next call. */
+void **plr_table_put(plr_arena *arena, plr_table *table, uint64_t key);
+
+/* units.c: sources to units. */
+uint32_t plr_gid(plr_linking *l, const char *text, size_t length);
+/* PLR_NONE if no source has it. */
+uint32_t plr_gid_find(const plr_linking *l, const char *text, size_t length);
+void plr_read_all(plr_linking *l);
+void plr_make_units(plr_linking *l);
+void plr_make_stages(plr_linking *l);
+/* The highest version that is asked for; faults are said if `messages` is not NULL. */
+void plr_decide_version(plr_linking *l, plr_linking *messages);
+static inline uint32_t plr_token_gid(const plr_unit *unit, uint32_t token) {
+    return unit->reading->gids[unit->lexed->tokens.items[token].value];
+}
+static inline const plr_ident *plr_token_ident(const plr_unit *unit, uint32_t token) {
+    return &unit->lexed->idents.items[unit->lexed->tokens.items[token].value];
+}
+static inline plr_place plr_unit_place(const plr_unit *unit, size_t offset) {
+    return plr_source_place(unit->reading->source, offset);
+}
+static inline plr_place plr_token_place(const plr_unit *unit, uint32_t token) {
+    return plr_unit_place(unit, unit->lexed->tokens.items[token].offset);
+}
+static inline plr_scope *plr_scope_of(const plr_linking *l, plr_stage stage, uint32_t effect) {
+    return &l->scopes[stage][effect];
+}
+
+/* condition.c: conditionals. */
+void plr_set_hosts(plr_linking *l);
+void plr_begin_macros(plr_linking *l, const plr_scope *scope);
+void plr_evaluate(plr_linking *l, plr_unit *unit);
+
+/* names.c: scopes and what identifiers mean. */
+bool plr_define_names(plr_linking *l, plr_scope *scope);
+plr_action plr_resolve(plr_linking *l, plr_unit *unit, uint32_t local);
+const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *length);
+plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint32_t gid);
+bool plr_same_tokens(const plr_unit *a, uint32_t a_first, uint32_t a_end, const plr_unit *b,
+                     uint32_t b_first, uint32_t b_end);
+
+/* sockets.c: plugs and the functions called there. */
+void plr_add_sockets(plr_linking *l, plr_unit *unit);
+bool plr_find_functions(plr_linking *l, plr_scope *scope);
+void plr_name_functions(plr_linking *l, plr_scope *scope);
+void plr_commit_calls(plr_linking *l);
+/* Finds the plugs of an effect's functions; false: one of them fits nowhere. */
+bool plr_place_functions(plr_linking *l, uint32_t effect);
+
+/* order.c: the order of calls at each plug. */
+void plr_note_targets(plr_linking *l);
+bool plr_target_exists(const plr_linking *l, uint32_t effect);
+void plr_order_calls(plr_linking *l);
+
+/* reach.c: what the program needs. */
+void plr_reach(plr_linking *l);
+/* The functions that a direct call of PLUG_x with that many arguments means, in `found`. */
+size_t plr_direct_functions(plr_linking *l, plr_unit *unit, uint32_t token, plr_function **found,
+                            size_t capacity);
+
+/* effects.c: one effect after the other. */
+void plr_add_effects(plr_linking *l);
+
+/* messages.c */
+void plr_say(plr_linking *l, plr_code code, plr_place place, const char *format, ...)
+    PLR_PRINTF(4, 5);
+void plr_say_note(plr_linking *l, plr_place place, const char *format, ...) PLR_PRINTF(3, 4);
+const char *plr_gid_text(plr_linking *l, uint32_t gid);
+/* An effect for messages: its name, or its number. */
+const char *plr_effect_text(plr_linking *l, uint32_t effect);
+void plr_say_unplaced(plr_linking *l, const plr_unit *unit, const plr_function *function);
+
+#endif

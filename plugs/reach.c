@@ -1,0 +1,190 @@
+/* What the program needs: from main on, whatever reached text names. */
+#include "plugs/link.h"
+
+#include <stdlib.h>
+
+static void reach_range(plr_linking *l, plr_node *node, uint32_t first, uint32_t end);
+
+static void reach_node(plr_linking *l, plr_node *node) {
+    if (node->reached || node->dropped)
+        return;
+    node->reached = true;
+    *PLR_PUSH(l->pass, &l->queue) = node;
+}
+
+static void reach_symbol(plr_linking *l, plr_binding *symbol) {
+    if (symbol->reached)
+        return;
+    symbol->reached = true;
+    for (const plr_definition *d = symbol->definitions; d; d = d->next)
+        if (d->name->kind != PLR_ITEM_PROTOTYPE || symbol->weak || d->name->inner)
+            reach_node(l, d->node);
+}
+
+static void add_edge(plr_linking *l, plr_node *node, plr_binding *symbol, plr_function *function) {
+    plr_edge *edge = PLR_NEW(l->pass, plr_edge);
+    *edge = (plr_edge){symbol, function, node->edges};
+    node->edges = edge;
+}
+
+static void reach_function(plr_linking *l, plr_node *node, plr_function *function) {
+    add_edge(l, node, NULL, function);
+    reach_node(l, function->node);
+}
+
+static void note_output(plr_linking *l, const plr_unit *unit, uint32_t token, uint16_t word) {
+    const plr_token *t = &unit->lexed->tokens.items[token];
+    if (word == PLR_WORD_gl_FragColor) {
+        l->uses_color = true;
+        return;
+    }
+    l->uses_data = true;
+    uint32_t size = 8;
+    if (t[1].kind == '[' && t[2].kind == PLR_T_NUMBER && t[2].length == 1 && t[3].kind == ']')
+        size = (uint32_t)(unit->lexed->text[t[2].offset] - '0') + 1;
+    if (size > l->data_size)
+        l->data_size = size;
+}
+
+static void reach_special(plr_linking *l, plr_node *node, uint32_t token) {
+    plr_unit *unit = node->unit;
+    const plr_ident *ident = plr_token_ident(unit, token);
+    if (ident->flags & PLR_IF_PLUG) {
+        plr_function *found[64];
+        size_t count = plr_direct_functions(l, unit, token, found, 64);
+        for (size_t i = 0; i < count; i++)
+            if (found[i]->name->token != token || found[i]->node != node)
+                reach_function(l, node, found[i]);
+    } else if (plr_word_get(ident->word)->kinds & PLR_WORD_IS_OUTPUT) {
+        note_output(l, unit, token, ident->word);
+    }
+}
+
+static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
+    plr_unit *unit = node->unit;
+    const plr_token *t = &unit->lexed->tokens.items[token];
+    uint8_t action = unit->actions[t->value];
+    if (t->flags & (PLR_TF_MEMBER | PLR_TF_PARAM)) {
+        uint32_t gid = unit->reading->gids[t->value];
+        if (t->flags & PLR_TF_MEMBER && !l->reads[gid]) {
+            l->reads[gid] = 1;
+            l->grown |= (l->asked[gid] & PLR_ASKED_READS) != 0;
+        }
+        if (t->flags & PLR_TF_PARAM)
+            return;
+    }
+    if (action == PLR_ACTION_UNKNOWN)
+        action = plr_resolve(l, unit, t->value);
+    plr_binding *symbol = unit->refs[t->value];
+    if (symbol) {
+        if (symbol->stamp == l->stamp)
+            return;
+        if (!symbol->macro && t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL))
+            return;
+        symbol->stamp = l->stamp;
+        add_edge(l, node, symbol, NULL);
+        reach_symbol(l, symbol);
+    } else if (action == PLR_ACTION_SPECIAL) {
+        reach_special(l, node, token);
+    }
+}
+
+static void reach_socket(plr_linking *l, plr_node *node, plr_socket *socket) {
+    uint32_t last = PLR_NONE;
+    socket->reached = true;
+    for (size_t i = 0; i < socket->calls.count; i++) {
+        const plr_call *call = &socket->calls.items[i];
+        reach_function(l, node, call->function);
+        if (call->list == last)
+            continue;
+        last = call->list;
+        const plr_list *list = &socket->unit->lexed->lists.items[call->list];
+        reach_range(l, node, list->first, list->end);
+    }
+}
+
+static void reach_range(plr_linking *l, plr_node *node, uint32_t first, uint32_t end) {
+    const plr_unit *unit = node->unit;
+    const plr_lexed *lexed = unit->lexed;
+    const plr_token *tokens = lexed->tokens.items;
+    for (uint32_t i = first; i < end;) {
+        if (tokens[i].kind == PLR_T_IDENT) {
+            reach_ident(l, node, i++);
+        } else if (tokens[i].kind == PLR_T_DIRECTIVE) {
+            uint32_t index = tokens[i].value;
+            const plr_directive *directive = &lexed->directives.items[index];
+            bool kept = !unit->activity || unit->activity->kept[index] != PLR_KEPT_NO;
+            for (uint32_t k = i + 1; kept && k < directive->end; k++)
+                if (tokens[k].kind == PLR_T_IDENT)
+                    reach_ident(l, node, k);
+            i = unit->activity ? unit->activity->next[index] : directive->end;
+        } else if (tokens[i].kind == PLR_T_PLUG) {
+            plr_socket *socket = unit->sockets[tokens[i].value];
+            if (socket)
+                reach_socket(l, node, socket);
+            i = lexed->plugs.items[tokens[i].value].end;
+        } else {
+            i++;
+        }
+    }
+}
+
+/* Items that are there even if nothing names them. */
+static bool is_root(const plr_node *node) {
+    switch (node->item->kind) {
+    case PLR_ITEM_KEPT:
+    case PLR_ITEM_GROUP:
+        return true;
+    case PLR_ITEM_VARIABLE:
+    case PLR_ITEM_BLOCK:
+        return !node->symbol; /* a built-in variable, declared again */
+    default:
+        return false;
+    }
+}
+
+static void reach_roots(plr_linking *l, plr_scope *scope, bool all) {
+    if (scope->live)
+        return;
+    scope->live = true;
+    for (uint32_t u = 0; u < scope->unit_count; u++) {
+        const plr_unit *unit = &scope->units[u];
+        for (size_t i = 0; unit->nodes && i < unit->cut->items.count; i++)
+            if (is_root(&unit->nodes[i]) ||
+                (all && (unit->nodes[i].item->kind != PLR_ITEM_PROTOTYPE ||
+                         (unit->nodes[i].symbol && unit->nodes[i].symbol->weak))))
+                reach_node(l, &unit->nodes[i]);
+    }
+}
+
+static void drain(plr_linking *l) {
+    while (l->queue.count) {
+        plr_node *node = l->queue.items[--l->queue.count];
+        plr_scope *scope = node->unit->scope;
+        if (scope->owner < l->effect_count) {
+            l->active[scope->owner] = true;
+            reach_roots(l, scope, false);
+        }
+        l->stamp++;
+        reach_range(l, node, node->item->prefix, node->item->prefix_end);
+        reach_range(l, node, node->item->first, node->item->end);
+    }
+}
+
+void plr_reach(plr_linking *l) {
+    uint32_t main_gid = plr_gid_find(l, "main", 4);
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
+        if (!(l->stages & 1u << s))
+            continue;
+        plr_scope *base = plr_scope_of(l, (plr_stage)s, PLR_SCOPE_BASE(l));
+        plr_binding *entry = main_gid == PLR_NONE ? NULL : plr_binding_find(l, base, main_gid);
+        bool all = l->desc->keep_all || !entry || !entry->function;
+        reach_roots(l, base, all);
+        if (entry)
+            reach_symbol(l, entry);
+        for (uint32_t e = 0; e < l->effect_count && l->desc->keep_all; e++)
+            if (!l->faulty[e] && !l->left_out[e])
+                reach_roots(l, plr_scope_of(l, (plr_stage)s, e), true);
+        drain(l);
+    }
+}
