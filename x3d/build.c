@@ -17,7 +17,7 @@ void x3d_offer(plr_scene *scene, x3d_nearest *nearest, const char *candidate) {
 
 void x3d_offer_all(plr_scene *scene, x3d_nearest *nearest, const x3d_names *names) {
     for (size_t i = 0; i < names->capacity && scene->nearest_budget; i++)
-        if (names->slots[i].key && names->slots[i].value)
+        if (names->slots[i].key)
             x3d_offer(scene, nearest, names->slots[i].key);
 }
 
@@ -160,7 +160,7 @@ plr_node *x3d_end(x3d_build *build, x3d_open *open) {
         open->def->open = false;
         open->def->skipped = !open->def->node;
     }
-    if (node && !open->proto && !build->scope->proto && plr_node_is(node, "Inline"))
+    if (node && !open->proto && !build->scope->proto && x3d_is_inline(node))
         x3d_load_inline(build, node);
     return node;
 }
@@ -257,6 +257,7 @@ bool x3d_value(x3d_build *build, plr_node *node, size_t index, x3d_lexer *lexer,
                            .info = x3d_field_info(node, index),
                            .node = type_name(node),
                            .field = field->name,
+                           .owner = node,
                            .xml = xml,
                            .keep_newlines = strcmp(field->name, "url") == 0,
                            .angle_factor = build->angle_factor};

@@ -136,6 +136,7 @@ void x3d_add_meta(x3d_build *build, const char *name, const char *content);
 /* "3.3" and the like, from the header or the root element. */
 void x3d_set_version(x3d_build *build, const char *text, size_t length);
 
+bool x3d_is_inline(const plr_node *node);
 /* Reads what an Inline names into its field `children`. */
 void x3d_load_inline(x3d_build *build, plr_node *node);
 /* Reads one text with the reader of its encoding; roots go to build->nodes. */

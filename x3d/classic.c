@@ -476,6 +476,12 @@ static void read_route(classic *c, const x3d_word *word) {
         return;
     if (!accept_word(c, "TO") && !accept_word(c, "to")) {
         syntax(c, "TO is expected in ROUTE");
+        x3d_lexer before = c->lexer;
+        x3d_word skipped;
+        if (x3d_lexer_word(&c->lexer, &skipped) && x3d_lexer_accept(&c->lexer, '.'))
+            x3d_lexer_word(&c->lexer, &skipped);
+        else
+            c->lexer = before;
         return;
     }
     if (read_route_end(c, &route.to, &route.to_field))

@@ -127,6 +127,10 @@ static void read_inlined(x3d_build *build, plr_node *node, x3d_file *file) {
         x3d_append_node(scene, children, inner.nodes.items[i]);
 }
 
+bool x3d_is_inline(const plr_node *node) {
+    return plr_node_is(node, "Inline") || plr_node_is(node, "KambiInline");
+}
+
 void x3d_load_inline(x3d_build *build, plr_node *node) {
     plr_scene *scene = build->scene;
     const plr_field *load_field = plr_node_field(node, "load"), *urls = plr_node_field(node, "url");

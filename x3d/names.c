@@ -89,7 +89,9 @@ void x3d_nearest_offer(x3d_nearest *nearest, const char *candidate) {
     size_t length = strlen(candidate);
     size_t longer = length > nearest->length ? length : nearest->length;
     size_t shorter = length + nearest->length - longer;
-    unsigned limit = (unsigned)(nearest->length < 3 ? 1 : (nearest->length + 2) / 3) * CHANGE + 1;
+    unsigned limit = (unsigned)((nearest->length + 2) / 3) * CHANGE + 1;
+    if (nearest->length < 3)
+        limit = 2 * CASE_CHANGE + 1;
     if (nearest->best)
         limit = nearest->distance + 1;
     if ((longer - shorter) * CHANGE >= limit)

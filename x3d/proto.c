@@ -99,6 +99,21 @@ static int shown(x3d_label label) {
     return label.length > 100 ? 100 : (int)label.length;
 }
 
+/* Through prototypes of prototypes the list could grow without bound. */
+static void push_is(plr_scene *scene, x3d_proto *proto, x3d_is is) {
+    enum {
+        MOST_IS = 100000
+    };
+    if (proto->is.count < MOST_IS) {
+        *PLR_PUSH(&scene->arena, &proto->is) = is;
+        return;
+    }
+    if (!scene->stopped)
+        x3d_report(scene, PLR_CODE_LIMIT, is.place, "prototype '%s' has more than %d IS",
+                   proto->name, MOST_IS);
+    scene->stopped = true;
+}
+
 void x3d_add_is(x3d_build *build, plr_node *node, x3d_label field, x3d_label interface) {
     plr_scene *scene = build->scene;
     x3d_proto *proto = build->scope->proto;
@@ -134,8 +149,7 @@ void x3d_add_is(x3d_build *build, plr_node *node, x3d_label field, x3d_label int
                    outside->name);
         return;
     }
-    *PLR_PUSH(&scene->arena, &proto->is) =
-        (x3d_is){node, (uint32_t)to, (uint32_t)from, interface.place};
+    push_is(scene, proto, (x3d_is){node, (uint32_t)to, (uint32_t)from, interface.place});
 }
 
 /* ---- Instances
@@ -268,9 +282,9 @@ static void forward_is(const copier *c, const x3d_open *open, const x3d_instance
         }
         for (size_t t = 0; t < instance->target_count; t++)
             if (instance->targets[t].interface == entries[i].field)
-                *PLR_PUSH(&c->build->scene->arena, &outer->is) =
-                    (x3d_is){instance->targets[t].node, instance->targets[t].field,
-                             entries[i].interface, entries[i].place};
+                push_is(c->build->scene, outer,
+                        (x3d_is){instance->targets[t].node, instance->targets[t].field,
+                                 entries[i].interface, entries[i].place});
     }
 }
 
@@ -292,7 +306,7 @@ plr_node *x3d_instantiate(x3d_build *build, x3d_open *open) {
         return first;
     }
     for (size_t i = 0; i < c.proto->nodes.count; i++)
-        if (plr_node_is(c.copies[i], "Inline"))
+        if (x3d_is_inline(c.copies[i]))
             x3d_load_inline(build, c.copies[i]);
     return first;
 }

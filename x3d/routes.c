@@ -55,7 +55,7 @@ static void end_import(x3d_build *build, const x3d_pending_import *import) {
     x3d_define_skipped(build, import->local);
     if (!inlined || (!inlined->node && !inlined->skipped))
         unknown_def(build, import->inlined, "IMPORT");
-    else if (inlined->node && !plr_node_is(inlined->node, "Inline"))
+    else if (inlined->node && !x3d_is_inline(inlined->node))
         x3d_report(build->scene, PLR_CODE_UNKNOWN_DEF, import->inlined.place,
                    "IMPORT from '%.*s', which is no Inline", shown(import->inlined),
                    import->inlined.text);

@@ -190,7 +190,28 @@ static void complete_colours(reader *r) {
     r->count = r->capacity = colours * 4;
 }
 
+/* Whether a word is next that is none of the node's fields: it stands where a number should. */
+static bool word_for_number(reader *r) {
+    x3d_word word;
+    const plr_node *owner = r->desc->owner;
+    x3d_lexer *lexer = r->lexer;
+    if (!x3d_lexer_peek_word(lexer, &word))
+        return false;
+    if (!r->desc->xml && !owner)
+        return false;
+    if (!r->desc->xml && x3d_field_index(r->scene, owner, word.text, word.length,
+                                         x3d_lexer_place(lexer)) != SIZE_MAX)
+        return false;
+    lexer->at += word.length;
+    if (r->desc->xml || x3d_starts_number(x3d_lexer_next(lexer)))
+        return fail(r, word.at, expectation(r->desc->type)), true;
+    lexer->at = word.at; /* more like the misspelled name of the next field */
+    return false;
+}
+
 static bool too_few(reader *r, size_t expected) {
+    if (word_for_number(r))
+        return false;
     x3d_report(r->scene, PLR_CODE_BAD_VALUE, x3d_view_place(r->lexer->view, r->start),
                "%s.%s: %s takes %zu numbers, here are %zu", r->desc->node, r->desc->field,
                plr_type_name(r->desc->type), expected, r->count);

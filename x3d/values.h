@@ -9,6 +9,7 @@ typedef struct x3d_value_desc {
     plr_type type;
     const plr_field_info *info; /* its range, or NULL */
     const char *node, *field;   /* for messages */
+    const plr_node *owner;      /* its fields may follow the value, in Classic VRML; or NULL */
     bool xml;                   /* the value is the whole text, strings may lack quotes */
     bool keep_newlines;         /* in XML strings */
     double angle_factor;        /* for rotations; 0: 1 */

@@ -689,6 +689,19 @@ static void on_end(void *user, const xmlChar *name, const xmlChar *prefix, const
     guarded(user, end_element);
 }
 
+/* libxml2 stands behind an entity when it complains about it. */
+static plr_place before_entity(const xml *x, plr_place place) {
+    const x3d_file *file = x->build->file;
+    if (place.line > file->line_count)
+        return place;
+    size_t start = file->lines[place.line - 1], column = place.column;
+    while (column > 1 && (start + column > file->length || file->text[start + column - 1] != '&'))
+        column--;
+    if (column > 1)
+        place.column = (uint32_t)column;
+    return place;
+}
+
 static void report_error(xml *x, const xmlError *error) {
     char message[200];
     size_t length = 0;
@@ -699,6 +712,8 @@ static void report_error(xml *x, const xmlError *error) {
     message[length] = '\0';
     plr_place place = {x->build->file->name, error->line > 0 ? (uint32_t)error->line : 1,
                        error->int2 > 0 ? (uint32_t)error->int2 : 1};
+    if (error->code == XML_ERR_UNDECLARED_ENTITY)
+        place = before_entity(x, place);
     x3d_report(x->scene, error->code == XML_ERR_NO_MEMORY ? PLR_CODE_NO_MEMORY : PLR_CODE_XML,
                place, "%s", message);
 }

@@ -1,6 +1,5 @@
 /* The same scene in XML and in Classic VRML gives the same graph. */
-#include "dump.h"
-#include "tests/tap.h"
+#include "checks.h"
 
 static void check_same(const char *what, const char *xml, const char *classic) {
     plr_diags *xml_diags, *classic_diags;
@@ -23,9 +22,6 @@ static void check_same(const char *what, const char *xml, const char *classic) {
     plr_diags_destroy(&xml_diags);
     plr_diags_destroy(&classic_diags);
 }
-
-#define XML(body) "<X3D version='3.3'><Scene>" body "</Scene></X3D>"
-#define CLASSIC(body) "#X3D V3.3 utf8\nPROFILE Full\n" body
 
 static void test_nodes(void) {
     check_same("nested nodes",
