@@ -71,10 +71,23 @@ static entry *entry_of(plr_catalog *catalog, const char *path, size_t stem) {
     return added;
 }
 
+static bool is_listed(const plr_catalog *catalog, const char *name, plr_stage stage) {
+    for (size_t i = 0; i < catalog->plugs.count; i++)
+        if (catalog->plugs.items[i].stage == stage &&
+            strcmp(catalog->plugs.items[i].name, name) == 0)
+            return true;
+    return false;
+}
+
 static void list_plugs(plr_catalog *catalog, const plr_source *source) {
-    for (size_t i = 0; i < plr_source_plug_count(source); i++)
-        *PLR_PUSH(&catalog->arena, &catalog->plugs) =
-            (plr_known_plug){plr_source_plug(source, i), plr_source_stage(source)};
+    plr_stage stage = plr_source_stage(source);
+    for (size_t i = 0; i < plr_source_plug_count(source); i++) {
+        size_t length;
+        const char *text = plr_source_plug(source, i, &length);
+        char *name = plr_arena_copy(&catalog->arena, text, length);
+        if (!is_listed(catalog, name, stage))
+            *PLR_PUSH(&catalog->arena, &catalog->plugs) = (plr_known_plug){name, stage};
+    }
 }
 
 static void read_all(plr_catalog *catalog, plr_diags *diags) {

@@ -21,6 +21,15 @@ const char *plr_source_text(const plr_source *source, size_t *length) {
     return source->text;
 }
 
+size_t plr_source_plug_count(const plr_source *source) { return source->lexed.plugs.count; }
+
+const char *plr_source_plug(const plr_source *source, size_t index, size_t *length) {
+    const plr_lexed *lexed = &source->lexed;
+    const plr_ident *name = &lexed->idents.items[lexed->plugs.items[index].name];
+    *length = name->length;
+    return name->text;
+}
+
 const char *plr_token_text(const plr_lexed *lexed, const plr_token *token, size_t *length) {
     if (token->flags & PLR_TF_SPLICED) {
         const plr_ident *ident = &lexed->idents.items[token->value];

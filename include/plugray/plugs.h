@@ -44,10 +44,10 @@ PLR_API void plr_source_destroy(plr_source **source);
 PLR_API plr_stage plr_source_stage(const plr_source *source);
 /* The text as given, NUL-terminated; owned by the source. */
 PLR_API const char *plr_source_text(const plr_source *source, size_t *length);
-/* The names of the plugs whose comments stand anywhere in the text, inactive branches included; each
- * name once, in order of text. */
+/* The names of the plugs whose comments stand anywhere in the text, inactive branches included, in
+ * order of text, as often as they stand there. A name is not NUL-terminated: `length` is its own. */
 PLR_API size_t plr_source_plug_count(const plr_source *source);
-PLR_API const char *plr_source_plug(const plr_source *source, size_t index);
+PLR_API const char *plr_source_plug(const plr_source *source, size_t index, size_t *length);
 
 /* ---- Describing a program --------------------------------------------------------------------- */
 
