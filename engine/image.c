@@ -39,6 +39,10 @@ double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t
 static bool from_integers(const plr_field *field, size_t header, const uint64_t size[3],
                           int64_t components, plr_code code, plr_image *image, plr_diags *diags) {
     uint64_t pixels = 1;
+    if (components == 0 && field->count == header) {
+        plr_diags_add(diags, code, field->place, "the image has no pixels");
+        return false;
+    }
     if (components < 1 || components > 4) {
         plr_diags_add(diags, code, field->place, "%lld components are outside 1..4",
                       (long long)components);
