@@ -29,7 +29,6 @@ struct VolumeSample {
 #endif
 };
 
-uniform mat4 castle_ProjectionMatrix;
 uniform vec4 viewport; /* x, y, width, height in pixels */
 #if HAS_OPAQUE
 uniform sampler2D opaqueDepth;
@@ -95,7 +94,7 @@ void main() {
     /* PLUG: volume_first (t) */
     /* Between two neighbouring entries and exits the set of volumes does not change: steps never
      * straddle one, and what does not overlap along this ray is met in order along this ray. */
-    for (int part = 0; part < 2 * VOLUME_COUNT && t < NOWHERE; part++) {
+    while (t < NOWHERE) { /* t grows from one entry or exit to the next */
 #else
     float t = 0.0;
 #endif
