@@ -61,6 +61,8 @@ static const char *decode(decoder *d, const char *data, size_t length) {
     /* every block of 8 x 8 takes a bit at least, in the coarsest component one of 32 x 32 pixels */
     if ((size_t)d->jpeg.image_width * d->jpeg.image_height > length * 8192)
         return "it is cut off";
+    if (d->jpeg.num_components != 1 && d->jpeg.num_components != 3)
+        return "its colours are neither grey nor RGB";
     d->jpeg.out_color_space = d->jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
     d->jpeg.dct_method = JDCT_ISLOW;
     jpeg_start_decompress(&d->jpeg);
