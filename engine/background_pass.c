@@ -20,7 +20,7 @@ void plr_background_prepare(plr_view *view) {
         .node = node, .to_world = view->flat.background_to_world, .volume = PLR_NO_EFFECT};
     plr_recipe_builtin(k, &pass->recipe, "background/Background", plr_node_type(node), binding, 0,
                        NULL, 0);
-    pass->built = plr_compose(&view->composer, &pass->recipe, "background", &pass->program);
+    pass->built = plr_compose_program(&view->composer, &pass->recipe, "background", &pass->program);
 }
 
 /* Clears depth and colour: to the background's first colour, or to transparent black. */

@@ -242,7 +242,7 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
     return built;
 }
 
-plr_built *plr_compose(plr_composer *c, plr_recipe *recipe, const char *kind,
+plr_built *plr_compose_program(plr_composer *c, plr_recipe *recipe, const char *kind,
                        const plr_program **program) {
     plr_built *built = NULL;
     bool again = true;

@@ -28,7 +28,7 @@ typedef struct plr_composer {
 /* Composes; `kind` ("volume", "surface") begins the program's name. Faulty effects of the recipe
  * are marked disabled. The program of `built` is `*program` or one of equal text; both are owned by
  * the composer. NULL if base and built-in effects alone do not compile (reported). */
-plr_built *plr_compose(plr_composer *composer, plr_recipe *recipe, const char *kind,
+plr_built *plr_compose_program(plr_composer *composer, plr_recipe *recipe, const char *kind,
                        const plr_program **program);
 void plr_composer_finish(plr_composer *composer);
 

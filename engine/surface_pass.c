@@ -98,7 +98,7 @@ static void compose_standard(plr_view *view, plr_surface *surface, const plr_lea
     if (lit)
         plr_pass_lights(view, &pass->recipe, leaf->scope, 0, PLR_NO_EFFECT);
     add_authors(view, &pass->recipe, leaf, appearance, texture);
-    pass->built = plr_compose(&view->composer, &pass->recipe, "surface", &pass->program);
+    pass->built = plr_compose_program(&view->composer, &pass->recipe, "surface", &pass->program);
 }
 
 /* The first of the author's complete shaders that works (ISO/IEC 19775-1 V4 31.2.2.3); its own
@@ -116,7 +116,7 @@ static bool compose_shader(plr_view *view, plr_surface *surface, const plr_leaf 
         pass->recipe.base_node = shader;
         define_surface(view, &pass->recipe, surface);
         add_authors(view, &pass->recipe, leaf, appearance, 0);
-        pass->built = plr_compose(&view->composer, &pass->recipe, "surface", &pass->program);
+        pass->built = plr_compose_program(&view->composer, &pass->recipe, "surface", &pass->program);
         if (pass->built)
             return true;
     }

@@ -202,7 +202,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
     for (int early_end = 1; early_end >= 0; early_end--) {
         build_recipe(view, leaves, early_end, diags);
         pass->pass.built =
-            plr_compose(&view->composer, &pass->pass.recipe, "volume", &pass->pass.program);
+            plr_compose_program(&view->composer, &pass->pass.recipe, "volume", &pass->pass.program);
         if (!pass->pass.built || !author_composites(&pass->pass))
             break;
     }

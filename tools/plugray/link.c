@@ -132,7 +132,7 @@ static void validate_effects(link_job *job) {
     plr_recipe recipe = recipe_of(job);
     if (setjmp(out_of_memory) == 0) {
         const plr_program *program;
-        plr_compose(&composer, &recipe, "link", &program);
+        plr_compose_program(&composer, &recipe, "link", &program);
     } else {
         plr_diags_add(job->diags, PLR_CODE_NO_MEMORY, (plr_place){NULL, 0, 0}, "out of memory");
     }
