@@ -15,7 +15,8 @@ uniform float radius = 100.0;
 /* spot_i: 1 within the beam, 0 from the cut-off angle on, linear in the angle between them. */
 float spot_factor(vec3 from_light) {
     vec3 axis = unit_or_zero(mat3(nodeToEye) * direction);
-    float angle = acos(clamp(dot(axis, from_light), -1.0, 1.0));
+    /* not acos: it loses digits at small angles, and Mesa's is coarse everywhere */
+    float angle = atan(length(cross(axis, from_light)), dot(axis, from_light));
     if (angle >= cutOffAngle)
         return 0.0;
     if (angle <= beamWidth)
