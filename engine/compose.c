@@ -214,7 +214,8 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
     for (size_t i = 0; i < recipe->effects.count; i++)
         if (plr_program_is_faulty(program, i))
             recipe->effects.items[i].disabled = true;
-    if (plr_bind_check(recipe, program, c->diags)) {
+    bool bound = recipe->bindings.count > 0; /* else nothing but text is composed */
+    if (bound && plr_bind_check(recipe, program, c->diags)) {
         plr_program_destroy(&program);
         *again = true;
         return NULL;

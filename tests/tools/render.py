@@ -110,8 +110,8 @@ render(0, "--stats", "box.x3dv", *SMALL)
 
 # ---- cache
 
-check(any(path.is_file() for path in (plugray.folder / "cache").rglob("*")), "programs are kept on disk")
+check(any(path.is_file() for path in (plugray.folder / "cache/plugray").rglob("*")), "programs are kept on disk")
 environment["XDG_CACHE_HOME"] = str(plugray.folder / "unused")
 render(0, "box.x3dv", *SMALL, "--probe", "0,0", "--no-cache")
-check(not (plugray.folder / "unused").exists(), "--no-cache keeps nothing")
+check(not (plugray.folder / "unused/plugray").exists(), "--no-cache keeps nothing")
 done()

@@ -51,7 +51,7 @@ caret = [line for line in run.stderr.splitlines() if line.strip() == "^"]
 check_equal(caret[:1], ["    " + " " * 17 + "^"], "the caret stands under the column")
 plugray.expect(1, "check", "warned.x3dv", "--strict")
 plugray.write("broken.x3dv", BOX.replace("amount; }", "amuont; }"))
-broken = plugray.expect(1, "check", "broken.x3dv", stderr="broken.x3dv:10:67: error: ")
+broken = plugray.expect(1, "check", "broken.x3dv", stderr="broken.x3dv:10:66: error: ")
 check("[glsl]" in broken.stderr, "GLSL errors stand at the author's line in the scene", broken.stderr)
 plugray.expect(1, "check", "nowhere.x3dv", stderr="nowhere.x3dv:1:1: error: ")
 plugray.expect(1, "check", "nowhere.x3dv", "box.x3dv", stderr="[missing-file]")
@@ -60,7 +60,7 @@ run = plugray.expect(1, "check", "--format", "json", "broken.x3dv", "warned.x3dv
 check(not run.stderr, "with --format json nothing is said on standard error", run.stderr)
 items = [item for item in json.loads(run.stdout) if item["severity"] != "info"]
 check_equal([(i["file"], i["line"], i["column"], i["severity"], i["code"]) for i in items],
-            [("broken.x3dv", 10, 67, "error", "glsl"), ("warned.x3dv", 14, 18, "warning", "unknown-field")],
+            [("broken.x3dv", 10, 66, "error", "glsl"), ("warned.x3dv", 14, 18, "warning", "unknown-field")],
             "JSON has the place, severity and code of each")
 check(all(isinstance(i["message"], str) and isinstance(i["notes"], list) for i in items),
       "JSON has message and notes of each")
@@ -89,12 +89,14 @@ check_equal(uri, "uml%C3%A4ut%20b.x3dv", "SARIF escapes file names as URIs")
 
 plugray.write("other/box.x3dv", BOX)
 plugray.write("scene/inline.x3dv", '#X3D V3.3 utf8\nInline { url "../other/box.x3dv" }\n')
-plugray.expect(1, "check", "scene/inline.x3dv", stderr="scene/inline.x3dv:2:14: error: ")
+plugray.expect(1, "check", "scene/inline.x3dv", stderr="scene/inline.x3dv:2:15: error: ")
 check("[not-allowed]" in plugray.run("check", "scene/inline.x3dv").stderr, "files elsewhere are refused")
 plugray.expect(0, "check", "scene/inline.x3dv", "--allow", "other")
 plugray.write("net.x3dv", '#X3D V3.3 utf8\nInline { url "http://127.0.0.1:9/box.x3dv" }\n')
 plugray.expect(1, "check", "net.x3dv", stderr="[not-allowed]")
-plugray.expect(1, "check", "net.x3dv", "--allow-network", stderr="net.x3dv:2:14: error: ")
+plugray.expect(1, "check", "net.x3dv", "--allow-network", stderr="net.x3dv:2:15: error: ")
+check("no way to read over the network" in plugray.run("check", "net.x3dv", "--allow-network").stderr,
+      "--allow-network says that there is no way")
 plugray.expect(0, "check", "box.x3dv", "--set", "Glow.amount=0.25", "--set", "Paint.emissiveColor=1 0 0")
 plugray.expect(2, "check", "box.x3dv", "--set", "Glow.amount=much", stderr="[bad-value]")
 plugray.expect(2, "check", "box.x3dv", "--set", "Paint.colour=1 0 0", stderr="has no field colour")
