@@ -1,0 +1,347 @@
+/* Every base and built-in effect links with what it is made for, compiles, and leaves nothing in
+ * the program that is not asked for. */
+#include <plugray/engine.h>
+
+#include "engine/glsl.h"
+#include "tests/tap.h"
+
+#define MOST 64
+
+/* An effect of a program: a built-in one by path, or an author's text. */
+typedef struct part {
+    const char *path; /* below effects/, without endings; NULL ends the list */
+    const char *text; /* an author's fragment unit; `path` is then its name */
+    const char *vertex_text;
+    const plr_define *defines;
+    size_t define_count;
+} part;
+
+typedef struct recipe {
+    const char *name, *base;
+    part parts[10];
+    const plr_define *defines;
+    size_t define_count;
+    const char *present; /* words that must be in the program, separated by blanks */
+    const char *absent;
+} recipe;
+
+typedef struct linked {
+    plr_diags *diags;
+    plr_source *sources[256];
+    size_t source_count;
+    const plr_source *lists[MOST][4], *library[MOST], *base[4];
+    plr_effect effects[MOST];
+    plr_program *program;
+} linked;
+
+static bool covered[256];
+
+static plr_source *read_text(linked *l, plr_stage stage, const char *name, const char *text) {
+    plr_origin origin = {.file = name};
+    plr_source *source = plr_source_read(stage, text, strlen(text), &origin, NULL, l->diags);
+    l->sources[l->source_count++] = source;
+    return source;
+}
+
+/* The units of a path, with the stage that their ending says. */
+static size_t read_files(linked *l, const char *path, const plr_source **list) {
+    static const struct {
+        const char *ending;
+        plr_stage stage;
+    } endings[] = {
+        {".glsl", PLR_FRAGMENT}, {".vert.glsl", PLR_VERTEX}, {".frag.glsl", PLR_FRAGMENT}};
+    const char *name, *text;
+    size_t count = 0, length = strlen(path);
+    for (size_t i = 0; (name = plr_effects_file(i, &text, NULL)); i++)
+        for (size_t e = 0; e < sizeof endings / sizeof *endings; e++)
+            if (strncmp(name, path, length) == 0 && strcmp(name + length, endings[e].ending) == 0) {
+                list[count++] = read_text(l, endings[e].stage, name, text);
+                covered[i] = true;
+            }
+    return count;
+}
+
+static size_t read_library(linked *l) {
+    const char *name, *text;
+    size_t count = 0;
+    for (size_t i = 0; (name = plr_effects_file(i, &text, NULL)); i++)
+        if (strncmp(name, "library/", 8) == 0) {
+            l->library[count++] = read_text(l, PLR_VERTEX, name, text);
+            l->library[count++] = read_text(l, PLR_FRAGMENT, name, text);
+            covered[i] = true;
+        }
+    return count;
+}
+
+static void link_recipe(linked *l, const recipe *r) {
+    memset(l, 0, sizeof *l);
+    l->diags = plr_diags_create(NULL);
+    size_t count = 0;
+    for (; r->parts[count].path; count++) {
+        const part *p = &r->parts[count];
+        const plr_source **list = l->lists[count];
+        size_t units = 0;
+        if (p->text)
+            list[units++] = read_text(l, PLR_FRAGMENT, p->path, p->text);
+        if (p->vertex_text)
+            list[units++] = read_text(l, PLR_VERTEX, p->path, p->vertex_text);
+        if (!units)
+            units = read_files(l, p->path, list);
+        l->effects[count] = (plr_effect){.name = p->path,
+                                         .sources = list,
+                                         .source_count = units,
+                                         .defines = p->defines,
+                                         .define_count = p->define_count,
+                                         .builtin = !p->text && !p->vertex_text};
+    }
+    plr_link_desc desc = {.base = l->base,
+                          .base_count = read_files(l, r->base, l->base),
+                          .library = l->library,
+                          .library_count = read_library(l),
+                          .effects = l->effects,
+                          .effect_count = count,
+                          .defines = r->defines,
+                          .define_count = r->define_count};
+    l->program = plr_link(&desc, l->diags);
+}
+
+static void finish(linked *l) {
+    plr_program_destroy(&l->program);
+    for (size_t i = 0; i < l->source_count; i++)
+        plr_source_destroy(&l->sources[i]);
+    plr_diags_destroy(&l->diags);
+}
+
+static void print_messages(const plr_glsl_messages *messages) {
+    for (size_t i = 0; i < messages->count; i++)
+        printf("# %u: %s\n", messages->items[i].line, messages->items[i].text);
+}
+
+static bool compiles(const plr_program *program) {
+    const char *texts[PLR_STAGE_COUNT];
+    plr_glsl_messages messages[PLR_STAGE_COUNT] = {{0}}, joint = {0};
+    for (int s = 0; s < PLR_STAGE_COUNT; s++)
+        texts[s] = plr_program_text(program, (plr_stage)s, NULL);
+    bool fine = plr_glsl_check(texts, messages, &joint);
+    for (int s = 0; s < PLR_STAGE_COUNT; s++) {
+        print_messages(&messages[s]);
+        plr_glsl_messages_free(&messages[s]);
+    }
+    print_messages(&joint);
+    plr_glsl_messages_free(&joint);
+    return fine;
+}
+
+static bool in_program(const plr_program *program, const char *word) {
+    for (int s = 0; s < PLR_STAGE_COUNT; s++) {
+        const char *text = plr_program_text(program, (plr_stage)s, NULL);
+        if (text && strstr(text, word))
+            return true;
+    }
+    return false;
+}
+
+/* Whether each word is in the program as `wanted` says. */
+static void check_words(const linked *l, const recipe *r, const char *words, bool wanted) {
+    char word[64];
+    int used;
+    for (const char *at = words ? words : ""; sscanf(at, " %63s%n", word, &used) == 1; at += used)
+        TAP_RESULT(in_program(l->program, word) == wanted, "%s: %s is %sin the program", r->name,
+                   word, wanted ? "" : "not ");
+}
+
+static void check_recipe(const recipe *r) {
+    linked l;
+    link_recipe(&l, r);
+    size_t problems = plr_diags_count(l.diags);
+    for (size_t i = 0; i < problems; i++) {
+        const plr_diag *diag = plr_diags_get(l.diags, i);
+        printf("# %s:%u:%u: %s\n", diag->place.file ? diag->place.file : "", diag->place.line,
+               diag->place.column, diag->message);
+    }
+    TAP_RESULT(l.program && !problems, "%s: links without a word", r->name);
+    if (l.program) {
+        bool fine = compiles(l.program);
+        TAP_RESULT(fine, "%s: compiles", r->name);
+        if (!fine)
+            printf("# %s\n", plr_program_text(l.program, PLR_FRAGMENT, NULL) ? "see the messages"
+                                                                             : "no text");
+        check_words(&l, r, r->present, true);
+        check_words(&l, r, r->absent, false);
+        if (getenv("SHOW_PROGRAMS"))
+            fprintf(stderr, "==== %s\n%s----\n%s\n", r->name,
+                    plr_program_text(l.program, PLR_VERTEX, NULL),
+                    plr_program_text(l.program, PLR_FRAGMENT, NULL));
+    }
+    finish(&l);
+}
+
+/* An author who uses every plug of surfaces, with the parameters of docs/plugs.md. */
+static const char every_vertex_plug[] =
+    "void PLUG_vertex_object_space_change(inout vec4 vertex_object, inout vec3 normal_object) {"
+    " vertex_object.xyz += normal_object; }\n"
+    "void PLUG_vertex_object_space(const in vec4 vertex_object, inout vec3 normal_object) {"
+    " normal_object = -normal_object; }\n"
+    "varying vec3 seen;\n"
+    "void PLUG_vertex_eye_space(const in vec4 vertex_eye, const in vec3 normal_eye) {"
+    " seen = vertex_eye.xyz; }\n"
+    "void PLUG_vertex_eye_space_extended(const in vec4 vertex_eye, const in vec3 normal_eye,"
+    " const in vec3 normal_object) { seen += normal_object; }\n";
+static const char every_fragment_plug[] =
+    "varying vec3 seen;\n"
+    "void PLUG_fragment_eye_space(const vec4 vertex_eye, inout vec3 normal_eye) { normal_eye += "
+    "seen; }\n"
+    "void PLUG_main_texture_apply(inout vec4 fragment_color, const in vec3 normal_eye) {"
+    " fragment_color.rgb *= normal_eye; }\n"
+    "void PLUG_texture_apply(inout vec4 fragment_color, const in vec3 normal_eye) {"
+    " fragment_color.g = 1.0; }\n"
+    "void PLUG_material_emissive(inout vec3 emissive) { emissive.r += 0.1; }\n"
+    "void PLUG_material_light_ambient(inout vec3 light_ambient) { light_ambient.r += 0.1; }\n"
+    "void PLUG_material_occlusion(inout vec4 color) { color.r *= 0.5; }\n"
+    "void PLUG_lighting_apply(inout vec4 color, const vec4 vertex_eye, const vec3 normal_eye) {"
+    " color.b = vertex_eye.z; }\n"
+    "void PLUG_fragment_modify(inout vec4 fragment_color) { fragment_color.a = 0.5; }\n"
+    "void PLUG_fog_apply(inout vec4 fragment_color, const vec3 normal_eye) {"
+    " fragment_color.r = normal_eye.x; }\n"
+    "void PLUG_fragment_end(inout vec4 fragment_color) { if (fragment_color.a < 0.5) discard; }\n";
+static const char every_lit_plug[] =
+    "void PLUG_material_ambient(inout vec3 ambient) { ambient.r += 0.1; }\n"
+    "void PLUG_material_specular(inout vec3 specular) { specular.r += 0.1; }\n"
+    "void PLUG_material_shininess(inout float shininess) { shininess += 1.0; }\n"
+    "void PLUG_light_scale(inout float scale, const in vec3 normal_eye, const in vec3 light_dir) {"
+    " scale *= dot(normal_eye, light_dir); }\n"
+    "void PLUG_texture_color(inout vec4 texture_color, const in sampler2D texture,"
+    " const in vec4 tex_coord) { texture_color = texture2D(texture, tex_coord.ts); }\n";
+static const char short_texture_plug[] =
+    "void PLUG_texture_color(inout vec4 texture_color, const in vec4 tex_coord) {"
+    " texture_color.rg = tex_coord.st; }\n";
+
+#define DEFINES(list) .defines = list, .define_count = sizeof list / sizeof *list
+static const plr_define plain[] = {
+    {"HAS_COLORS", "0"}, {"HAS_NORMALS", "1"}, {"TWO_SIDED", "0"}, {"OPAQUE", "1"}};
+static const plr_define colored[] = {
+    {"HAS_COLORS", "1"}, {"HAS_NORMALS", "1"}, {"TWO_SIDED", "1"}, {"OPAQUE", "0"}};
+static const plr_define one_volume[] = {
+    {"VOLUME_COUNT", "1"}, {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"}, {"HAS_CUT", "0"}};
+static const plr_define two_volumes[] = {
+    {"VOLUME_COUNT", "2"}, {"HAS_OPAQUE", "1"}, {"EARLY_END", "0"}, {"HAS_CUT", "1"}};
+static const plr_define scalar[] = {{"voxels_COMPONENTS", "1"}, {"VOLUME_INDEX", "0"}};
+static const plr_define rgba[] = {{"voxels_COMPONENTS", "4"}, {"VOLUME_INDEX", "1"}};
+static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
+                                     {"LEADING", "1"},
+                                     {"HAS_transferFunction", "1"},
+                                     {"transferFunction_DIMENSIONS", "2"}};
+static const plr_define lit_style[] = {{"lighting", "1"}, {"HAS_material", "1"}};
+static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}};
+static const plr_define with_ground[] = {{"HAS_GROUND", "1"}};
+static const plr_define no_ground[] = {{"HAS_GROUND", "0"}};
+
+static const recipe recipes[] = {
+    {"unlit",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"}},
+     DEFINES(plain),
+     .present = "emissiveColor castle_ModelViewMatrix",
+     .absent = "ormal castle_vertex_eye vertex_color Color0 MaterialInfo PLUG"},
+    {"unlit, coloured",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"}},
+     DEFINES(colored),
+     .present = "vertex_color castle_ColorPerVertex transparency",
+     .absent = "ormal emissiveColor"},
+    {"unlit, textured",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "surface/Texture2D"},
+      {.path = "surface/TextureTransform"}},
+     DEFINES(plain),
+     .present = "castle_MultiTexCoord0 sampler2D",
+     .absent = "ormal"},
+    {"unlit, every plug",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {"author", .text = "void PLUG_fragment_eye_space(const vec4 v, inout vec3 n) { n.x = v.x; }\n"
+                         "void PLUG_fog_apply(inout vec4 c, const vec3 n) { c.rgb = n; }"}},
+     DEFINES(plain),
+     .present = "castle_Normal castle_vertex_eye castle_NormalMatrix",
+     .absent = "gl_FrontFacing"},
+    {"material without light",
+     "surface/surface",
+     {{.path = "surface/Material"}},
+     DEFINES(plain),
+     .present = "emissiveColor",
+     .absent = "ormal castle_vertex_eye MaterialInfo shininess"},
+    {"material and light",
+     "surface/surface",
+     {{.path = "surface/Material"}, {.path = "lights/DirectionalLight"}},
+     DEFINES(plain),
+     .present = "castle_Normal shininess MaterialInfo",
+     .absent = "attenuation gl_FrontFacing"},
+    {"material and all lights, two-sided, coloured",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "lights/PointLight"},
+      {.path = "lights/SpotLight"},
+      {.path = "lights/SpotLight"}},
+     DEFINES(colored),
+     .present = "gl_FrontFacing attenuation cutOffAngle",
+     .absent = "diffuseColor"},
+    {"every plug of surfaces",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "surface/Texture2D"},
+      {.path = "surface/TextureTransform"},
+      {.path = "lights/PointLight"},
+      {.path = "lights/PointLight"},
+      {"author", .text = every_fragment_plug, .vertex_text = every_vertex_plug},
+      {"lit", .text = every_lit_plug},
+      {"short", .text = short_texture_plug}},
+     DEFINES(colored),
+     .present = "seen"},
+    {"one volume",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .absent = "normal_ gradient MaterialInfo position_eye"},
+    {"one lit volume",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
+      {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style)},
+      {.path = "volume/Composite"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "lights/SpotLight"}},
+     DEFINES(one_volume),
+     .present = "normal_eye MaterialInfo"},
+    {"two volumes",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/Volume", DEFINES(rgba)},
+      {.path = "volume/ShadedVolumeStyle", DEFINES(flat_style)},
+      {.path = "volume/Composite"}},
+     DEFINES(two_volumes)},
+    {"sky",
+     "background/background",
+     {{.path = "background/Background", DEFINES(no_ground)}},
+     NULL,
+     0,
+     .absent = "groundColor"},
+    {"sky and ground",
+     "background/background",
+     {{.path = "background/Background", DEFINES(with_ground)}},
+     NULL,
+     0,
+     .present = "groundColor"},
+};
+
+int main(void) {
+    for (size_t i = 0; i < sizeof recipes / sizeof *recipes; i++)
+        check_recipe(&recipes[i]);
+    const char *name;
+    for (size_t i = 0; (name = plr_effects_file(i, NULL, NULL)) && i < 256; i++)
+        TAP_RESULT(covered[i], "%s is tested", name);
+    return tap_done();
+}
