@@ -37,14 +37,30 @@ bool plr_host_is_big_endian(void) {
     return first == 0;
 }
 
+/* Shifts that compilers turn into byte swaps of whole vectors. */
+#define SWAP(bits, type, expression)                                                               \
+    static void swap##bits(unsigned char *at, size_t count) {                                      \
+        for (size_t i = 0; i < count; i++, at += sizeof(type)) {                                   \
+            type v;                                                                                \
+            memcpy(&v, at, sizeof v);                                                              \
+            v = (type)(expression);                                                                \
+            memcpy(at, &v, sizeof v);                                                              \
+        }                                                                                          \
+    }
+SWAP(16, uint16_t, v >> 8 | v << 8)
+SWAP(32, uint32_t, v >> 24 | (v >> 8 & 0xff00) | (v << 8 & 0xff0000) | v << 24)
+SWAP(64, uint64_t,
+     v >> 56 | (v >> 40 & 0xff00) | (v >> 24 & 0xff0000) | (v >> 8 & 0xff000000) |
+         (v << 8 & UINT64_C(0xff00000000)) | (v << 24 & UINT64_C(0xff0000000000)) |
+         (v << 40 & UINT64_C(0xff000000000000)) | v << 56)
+
 void plr_swap_bytes(void *data, size_t count, size_t size) {
-    unsigned char *at = data;
-    for (size_t i = 0; size > 1 && i < count; i++, at += size)
-        for (size_t low = 0, high = size - 1; low < high; low++, high--) {
-            unsigned char kept = at[low];
-            at[low] = at[high];
-            at[high] = kept;
-        }
+    if (size == 2)
+        swap16(data, count);
+    else if (size == 4)
+        swap32(data, count);
+    else if (size == 8)
+        swap64(data, count);
 }
 
 /* ---- gzip ----------------------------------------------------------------------------------- */
@@ -278,15 +294,41 @@ size_t plr_read_numbers(const char *text, size_t length, plr_voxel_type type, vo
 
 /* ---- order of axes -------------------------------------------------------------------------- */
 
+/* One row along the fastest axis; a size that is known makes a copy one instruction. */
+static inline void gather_row(char *to, const char *from, size_t size, size_t step,
+                              uint64_t count) {
+    for (uint64_t i = 0; i < count; i++, to += size, from += step)
+        memcpy(to, from, size);
+}
+
+static void gather_any(char *to, const char *from, size_t size, size_t step, uint64_t count) {
+    switch (size) {
+    case 1:
+        gather_row(to, from, 1, step, count);
+        break;
+    case 2:
+        gather_row(to, from, 2, step, count);
+        break;
+    case 4:
+        gather_row(to, from, 4, step, count);
+        break;
+    case 8:
+        gather_row(to, from, 8, step, count);
+        break;
+    default:
+        gather_row(to, from, size, step, count);
+        break;
+    }
+}
+
 void plr_gather(void *out, const void *in, size_t size, const uint64_t count[4],
                 const uint64_t stride[4]) {
     char *to = out;
+    size_t row = (size_t)count[0] * size, step = (size_t)stride[0] * size;
     for (uint64_t l = 0; l < count[3]; l++)
         for (uint64_t k = 0; k < count[2]; k++)
-            for (uint64_t j = 0; j < count[1]; j++) {
-                const char *from = (const char *)in +
-                                   (size_t)(l * stride[3] + k * stride[2] + j * stride[1]) * size;
-                for (uint64_t i = 0; i < count[0]; i++, to += size, from += stride[0] * size)
-                    memcpy(to, from, size);
+            for (uint64_t j = 0; j < count[1]; j++, to += row) {
+                uint64_t first = l * stride[3] + k * stride[2] + j * stride[1];
+                gather_any(to, (const char *)in + (size_t)first * size, size, step, count[0]);
             }
 }

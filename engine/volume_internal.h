@@ -53,7 +53,7 @@ size_t plr_voxel_size(plr_voxel_type type); /* bytes */
 /* "unsigned 16-bit integers" */
 const char *plr_voxel_type_text(plr_voxel_type type);
 bool plr_host_is_big_endian(void);
-/* Reverses the bytes of each of `count` elements of `size` bytes, in place. */
+/* Reverses the bytes of each of `count` elements of `size` bytes (1, 2, 4 or 8), in place. */
 void plr_swap_bytes(void *data, size_t count, size_t size);
 
 /* Unpacks one or more gzip members: drops `skip` bytes, then writes up to `size` bytes to `out`.
