@@ -258,10 +258,14 @@ static bool begins_statement(uint8_t before) {
  * hides only from the end of its declaration on, and only if no other meaning was used before. */
 static void mark_body(marker *m, uint32_t open, uint32_t close) {
     plr_token *tokens = m->tokens;
-    uint32_t depth = 1, conditionals = 0, pending = PLR_NONE;
+    uint32_t depth = 1, conditionals = 0, pending = PLR_NONE, plug_end = 0;
     uint8_t before = '{';
     for (uint32_t i = open + 1; i < close; i++) {
         plr_token *token = &tokens[i];
+        if (token->kind == PLR_T_PLUG)
+            plug_end = m->lexed->plugs.items[token->value].end;
+        if (i == plug_end)
+            before = ';'; /* what a plug offers declares nothing, and ends as a call does */
         if (token->kind == PLR_T_DIRECTIVE) {
             const plr_directive *directive = &m->lexed->directives.items[token->value];
             conditionals += directive->kind >= PLR_D_IF && directive->kind <= PLR_D_IFNDEF;
@@ -269,7 +273,8 @@ static void mark_body(marker *m, uint32_t open, uint32_t close) {
             i = directive->end - 1;
             continue;
         }
-        if (depth == 1 && conditionals == 0 && begins_statement(before) && pending == PLR_NONE)
+        if (depth == 1 && conditionals == 0 && i >= plug_end && begins_statement(before) &&
+            pending == PLR_NONE)
             pending = declared_at(m, i);
         if (token->kind == PLR_T_IDENT && !(token->flags & PLR_TF_MEMBER)) {
             if (m->local[token->value] == m->function || i == pending)
@@ -282,10 +287,7 @@ static void mark_body(marker *m, uint32_t open, uint32_t close) {
             m->local[tokens[pending].value] = m->function;
             pending = PLR_NONE;
         }
-        if (token->kind != PLR_T_PLUG)
-            before = token->kind;
-        else
-            before = ';';
+        before = token->kind;
     }
 }
 
