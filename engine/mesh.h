@@ -13,7 +13,7 @@ typedef enum plr_mesh_kind {
 /* A named vertex attribute of the author's (FloatVertexAttribute, ...). */
 typedef struct plr_mesh_attribute {
     char *name;
-    int components; /* 1..4, 9, 16 */
+    int components; /* 1..4, 9, 16: matrices, column by column */
     float *values;
 } plr_mesh_attribute;
 

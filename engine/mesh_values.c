@@ -87,9 +87,12 @@ static void add_attribute(plr_polygons *polygons, plr_mesh *mesh, const plr_node
     size_t size = (size_t)components;
     attribute->values =
         plr_mesh_array(polygons->arena, mesh->vertex_count, size * sizeof *attribute->values);
+    /* fields write matrices row by row (ISO/IEC 19776-1 5.14), GL reads them column by column */
+    size_t rows = components == 16 ? 4 : components == 9 ? 3 : 1, columns = size / rows;
     for (size_t i = 0; i < mesh->vertex_count; i++)
         for (size_t c = 0; c < size; c++)
-            attribute->values[i * size + c] = number_at(field, coords[i] * size + c);
+            attribute->values[i * size + c % columns * rows + c / columns] =
+                number_at(field, coords[i] * size + c);
 }
 
 void plr_mesh_attributes(plr_polygons *polygons, plr_mesh *mesh, const uint32_t *coords) {

@@ -2,6 +2,7 @@
  * may declare any of them again, with the same type. */
 
 /* Of the geometry. */
+#ifdef PLUGRAY_VERTEX
 in vec4 castle_Vertex;
 in vec3 castle_Normal;
 in vec4 castle_ColorPerVertex;
@@ -13,6 +14,7 @@ in vec4 castle_MultiTexCoord4;
 in vec4 castle_MultiTexCoord5;
 in vec4 castle_MultiTexCoord6;
 in vec4 castle_MultiTexCoord7;
+#endif
 
 /* Of the shape: object space to eye space, normals too, and eye space to clip space. */
 uniform mat4 castle_ModelViewMatrix;

@@ -450,6 +450,20 @@ static void test_bindings(void) {
     finish(&f);
 }
 
+static void test_matrix_attributes(void) {
+    fixture f =
+        build("PointSet { coord Coordinate { point [ 0 0 0, 1 1 1 ] } attrib [ "
+              "Matrix3VertexAttribute { name \"turn\" value [ 1 0 0 0 1 0 0 0 1, 1 2 3 4 5 6 "
+              "7 8 9 ] } FloatVertexAttribute { name \"few\" numComponents 3 value [ 1 2 3 ] "
+              "} FloatVertexAttribute { value [ 1 2 3 4 5 6 7 8 ] } ] }");
+    CHECK(f.built && f.mesh.attribute_count == 1);
+    static const float expected[9] = {1, 4, 7, 2, 5, 8, 3, 6, 9}; /* by columns */
+    CHECK(f.built && f.mesh.attributes[0].components == 9 &&
+          memcmp(f.mesh.attributes[0].values + 9, expected, sizeof expected) == 0);
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 2); /* too few values; no name */
+    finish(&f);
+}
+
 static void test_triangle_nodes(void) {
     static const char *const square = "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0 ] }";
     static const struct {
@@ -578,6 +592,7 @@ int main(void) {
     test_random_polygons();
     test_default_mapping();
     test_bindings();
+    test_matrix_attributes();
     test_triangle_nodes();
     test_lines_and_points();
     test_elevation();
