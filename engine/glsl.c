@@ -45,22 +45,6 @@ static const glslang_input_t counting = {
     .messages = GLSLANG_MSG_DEFAULT_BIT,
 };
 
-/* Parses one text. False if it does not compile; `shader` is to be deleted in any case. */
-static bool parse(const glslang_input_t *how, const char *text, plr_stage stage,
-                  glslang_shader_t **shader) {
-    glslang_input_t input = *how;
-    input.stage = stages[stage];
-    input.code = text;
-    input.resource = glslang_default_resource();
-    *shader = glslang_shader_create(&input);
-    if (!*shader)
-        return false;
-    if (how->client == GLSLANG_CLIENT_OPENGL)
-        glslang_shader_set_options(*shader, GLSLANG_SHADER_AUTO_MAP_BINDINGS |
-                                                GLSLANG_SHADER_AUTO_MAP_LOCATIONS);
-    return glslang_shader_preprocess(*shader, &input) && glslang_shader_parse(*shader, &input);
-}
-
 /* Takes the messages of a log; a failure without any gets one, so that no failure is silent. */
 static void take_log(const char *log, bool failed, plr_glsl_messages *messages) {
     static const char silent[] = "the compiler refuses this without saying why";
@@ -72,6 +56,38 @@ static void take_log(const char *log, bool failed, plr_glsl_messages *messages) 
         plr_glsl_messages_add(messages, &(plr_glsl_message){.severity = PLR_ERROR}, silent,
                               sizeof silent - 1, NULL, 0);
     plr_glsl_messages_sort(messages);
+}
+
+/* Parses one text. NULL with messages if it does not compile. */
+static glslang_shader_t *parse(const glslang_input_t *how, const char *text, plr_stage stage,
+                               plr_glsl_messages *messages) {
+    glslang_input_t input = *how;
+    input.stage = stages[stage];
+    input.code = text;
+    input.resource = glslang_default_resource();
+    *messages = (plr_glsl_messages){0};
+    if (!plr_glsl_check_limits(text, messages))
+        return NULL;
+    glslang_shader_t *shader = glslang_shader_create(&input);
+    if (!shader) {
+        take_log(NULL, true, messages);
+        return NULL;
+    }
+    if (how->client == GLSLANG_CLIENT_OPENGL)
+        glslang_shader_set_options(shader, GLSLANG_SHADER_AUTO_MAP_BINDINGS |
+                                               GLSLANG_SHADER_AUTO_MAP_LOCATIONS);
+    bool parsed = glslang_shader_preprocess(shader, &input);
+    /* Macros may have made more of it. */
+    bool limited =
+        parsed && !plr_glsl_check_limits(glslang_shader_get_preprocessed_code(shader), messages);
+    if (!limited) {
+        parsed = parsed && glslang_shader_parse(shader, &input);
+        take_log(glslang_shader_get_info_log(shader), !parsed, messages);
+    }
+    if (parsed && !limited)
+        return shader;
+    glslang_shader_delete(shader);
+    return NULL;
 }
 
 static bool link_stages(glslang_shader_t *const shaders[PLR_STAGE_COUNT],
@@ -98,10 +114,8 @@ bool plr_glsl_check(const char *const texts[PLR_STAGE_COUNT],
         messages[stage] = (plr_glsl_messages){0};
         if (!texts[stage])
             continue;
-        bool parsed = parse(&checking, texts[stage], (plr_stage)stage, &shaders[stage]);
-        take_log(shaders[stage] ? glslang_shader_get_info_log(shaders[stage]) : NULL, !parsed,
-                 &messages[stage]);
-        all = all && parsed;
+        shaders[stage] = parse(&checking, texts[stage], (plr_stage)stage, &messages[stage]);
+        all = all && shaders[stage];
     }
     if (all)
         all = link_stages(shaders, link);
@@ -167,17 +181,19 @@ static bool is_countable(const char *text) {
 }
 
 bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, uint32_t *fetches) {
-    glslang_shader_t *shader = NULL;
     glslang_program_t *program = NULL;
+    plr_glsl_messages messages;
     *instructions = *fetches = 0;
     if (!is_countable(text))
         return false;
     pthread_once(&once, initialize);
-    bool counted = parse(&counting, text, stage, &shader) && (program = glslang_program_create());
+    glslang_shader_t *shader = parse(&counting, text, stage, &messages);
+    plr_glsl_messages_free(&messages);
+    bool counted = shader && (program = glslang_program_create());
     if (counted) {
         glslang_program_add_shader(program, shader);
-        counted =
-            glslang_program_link(program, (int)counting.messages) && glslang_program_map_io(program);
+        counted = glslang_program_link(program, (int)counting.messages) &&
+                  glslang_program_map_io(program);
     }
     if (counted) {
         glslang_spv_options_t options = {.strip_debug_info = true};

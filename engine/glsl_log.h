@@ -9,5 +9,8 @@ bool plr_glsl_messages_add(plr_glsl_messages *messages, const plr_glsl_message *
                            const char *text, size_t length, const char *word, size_t word_length);
 /* Sorts by line; messages of one line keep their order. */
 void plr_glsl_messages_sort(plr_glsl_messages *messages);
+/* Whether the text keeps to the limits of nesting and length below which compilers do not run out
+ * of stack; adds a message if not. */
+bool plr_glsl_check_limits(const char *text, plr_glsl_messages *messages);
 
 #endif
