@@ -337,11 +337,80 @@ static const recipe recipes[] = {
      .present = "groundColor"},
 };
 
-int main(void) {
+/* ---- The examples of docs/plugs.md -------------------------------------------------------------
+ */
+
+/* The next block of indented lines; NULL at the end. Blank lines separate blocks. */
+static char *next_block(const char **at) {
+    while (**at && strncmp(*at, "    ", 4) != 0) {
+        *at += strcspn(*at, "\n");
+        *at += **at == '\n';
+    }
+    if (!**at)
+        return NULL;
+    const char *start = *at;
+    while (strncmp(*at, "    ", 4) == 0) {
+        *at += strcspn(*at, "\n");
+        *at += **at == '\n';
+    }
+    size_t length = (size_t)(*at - start);
+    char *block = malloc(length + 1);
+    memcpy(block, start, length);
+    block[length] = 0;
+    return block;
+}
+
+static void check_example(const char *text) {
+    char name[100] = "example";
+    sscanf(strstr(text, "PLUG_"), "%99[A-Za-z_]", name);
+    bool vertex = strstr(text, "PLUG_vertex") != NULL;
+    bool volume = strstr(text, "PLUG_volume") != NULL;
+    const recipe surfaces = {
+        name,
+        "surface/surface",
+        {{.path = "surface/Material"},
+         {.path = "surface/Texture2D"},
+         {.path = "lights/DirectionalLight"},
+         {.path = name, .text = vertex ? NULL : text, .vertex_text = vertex ? text : NULL}},
+        DEFINES(plain),
+        .present = name + strlen("PLUG_")};
+    const recipe volumes = {name,
+                            "volume/raycaster",
+                            {{.path = "volume/Volume", DEFINES(scalar)},
+                             {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
+                             {.path = "volume/Composite"},
+                             {.path = name, .text = text}},
+                            DEFINES(one_volume),
+                            .present = name + strlen("PLUG_")};
+    check_recipe(volume ? &volumes : &surfaces);
+}
+
+static void check_examples(const char *path) {
+    FILE *file = fopen(path, "rb");
+    char *text = calloc(1, 100000);
+    size_t length = file ? fread(text, 1, 99999, file) : 0;
+    if (file)
+        fclose(file);
+    int examples = 0;
+    char *block;
+    for (const char *at = text; length && (block = next_block(&at));) {
+        if (strstr(block, "void PLUG_") && !strstr(block, "Effect {")) {
+            check_example(block);
+            examples++;
+        }
+        free(block);
+    }
+    CHECK(examples > 15);
+    free(text);
+}
+
+int main(int argc, char **argv) {
     for (size_t i = 0; i < sizeof recipes / sizeof *recipes; i++)
         check_recipe(&recipes[i]);
     const char *name;
     for (size_t i = 0; (name = plr_effects_file(i, NULL, NULL)) && i < 256; i++)
         TAP_RESULT(covered[i], "%s is tested", name);
+    if (argc > 1)
+        check_examples(argv[1]);
     return tap_done();
 }
