@@ -1,5 +1,6 @@
 /* What compilers of GLSL are spared: they recurse over expressions without a limit of their own,
  * and end the process where the stack ends. */
+#include <ctype.h>
 #include <string.h>
 
 #include "engine/glsl_log.h"
@@ -52,6 +53,8 @@ static bool is_operator(const char *at) {
 
 /* Counts one character. NULL, or which limit it reaches. */
 static const char *count(counts *c, const char *at) {
+    if (*at == ' ' || *at == '_' || isalnum((unsigned char)*at)) /* most of a text */
+        return NULL;
     if (is_operator(at)) {
         c->levels[c->depth].operators++;
         c->total.operators++;
