@@ -277,6 +277,21 @@ static bool takes(const plr_field_info *info, const plr_node *child) {
     return !info || x3d_allows(info, child->type->info);
 }
 
+/* In 2005 VolumeData.voxels was a list: the second and later nodes are reduced copies. */
+static bool add_level(x3d_build *build, plr_node *node, const plr_field *field, plr_node *child,
+                      plr_place place) {
+    plr_scene *scene = build->scene;
+    if (!node->type || !plr_node_is(node, "VolumeData") || strcmp(field->name, "voxels") != 0)
+        return false;
+    size_t levels = x3d_field_index(scene, node, "voxelLevels", 11, place);
+    if (levels == SIZE_MAX)
+        return false;
+    x3d_uses_2005(scene, place);
+    node->fields[levels].given = true;
+    x3d_append_node(scene, &node->fields[levels], child);
+    return true;
+}
+
 void x3d_add_child(x3d_build *build, plr_node *node, size_t index, plr_node *child,
                    plr_place place) {
     plr_field *field = &node->fields[index];
@@ -286,6 +301,8 @@ void x3d_add_child(x3d_build *build, plr_node *node, size_t index, plr_node *chi
         return;
     }
     if (field->type == PLR_SFNODE && field->count) {
+        if (add_level(build, node, field, child, place))
+            return;
         x3d_report(build->scene, PLR_CODE_BAD_NODE, place, "%s.%s takes one node, this is left out",
                    type_name(node), field->name);
         return;
@@ -305,6 +322,21 @@ static size_t find_open_field(x3d_build *build, const plr_node *parent, const ch
     return index != SIZE_MAX && is_open_to(parent, index, child) ? index : SIZE_MAX;
 }
 
+/* The one field that takes the node; SIZE_MAX: there are none or several. */
+static size_t only_open_field(const plr_node *parent, const plr_node *child, bool standard,
+                              size_t *count) {
+    size_t found = SIZE_MAX;
+    *count = 0;
+    for (size_t i = 0; i < parent->field_count; i++) {
+        const plr_field_info *info = x3d_field_info(parent, i);
+        if (!is_open_to(parent, i, child) || (standard && info && info->extension))
+            continue;
+        found = i;
+        ++*count;
+    }
+    return *count == 1 ? found : SIZE_MAX;
+}
+
 size_t x3d_container(x3d_build *build, plr_node *parent, const plr_node *child,
                      const x3d_label *container, plr_place place) {
     if (container) {
@@ -321,11 +353,10 @@ size_t x3d_container(x3d_build *build, plr_node *parent, const plr_node *child,
     if (index == SIZE_MAX)
         index = find_open_field(build, parent, child->type->info->container_field, child);
     size_t others = 0;
-    for (size_t i = 0; index == SIZE_MAX && i < parent->field_count; i++)
-        others += is_open_to(parent, i, child);
-    for (size_t i = 0; others == 1 && index == SIZE_MAX && i < parent->field_count; i++)
-        if (is_open_to(parent, i, child))
-            index = i;
+    if (index == SIZE_MAX)
+        index = only_open_field(parent, child, true, &others);
+    if (index == SIZE_MAX)
+        index = only_open_field(parent, child, false, &others);
     if (index == SIZE_MAX) {
         x3d_report(build->scene, PLR_CODE_BAD_NODE, place, "%s has no field for a %s%s",
                    type_name(parent), type_name(child),

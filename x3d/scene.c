@@ -11,11 +11,26 @@ enum {
     MESSAGE_SIZE = 512
 };
 
-/* Messages hold names from the file: control characters and broken UTF-8 must not get through. */
+/* How many bytes the UTF-8 character at `p` has; 0: it is none. */
+static size_t utf8_length(const unsigned char *p) {
+    static const unsigned char least[] = {0, 0, 0xc2, 0xe0, 0xf0};
+    size_t length = *p < 0x80 ? 1 : *p < 0xe0 ? 2 : *p < 0xf0 ? 3 : 4;
+    if (length > 1 && (*p < least[length] || *p > 0xf4))
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    return length;
+}
+
+/* Messages hold names from the file, perhaps cut: what is not text must not get through. */
 static void clean_message(char *text) {
-    for (unsigned char *p = (unsigned char *)text; *p; p++)
-        if (*p < ' ' || *p == 0x7f)
+    for (unsigned char *p = (unsigned char *)text; *p;) {
+        size_t length = utf8_length(p);
+        if (!length || *p < ' ' || *p == 0x7f)
             *p = '?';
+        p += length ? length : 1;
+    }
 }
 
 static bool may_report(plr_scene *scene, plr_place place) {

@@ -9,17 +9,19 @@ static plr_place place_of(const plr_string *url) {
     return (plr_place){url->origin.file, url->origin.line, url->origin.column};
 }
 
-/* Runs the body of a public entry point with out_of_memory set; see ENTER. */
+/* A public entry point sets up where to go when memory runs out, and undoes it. */
 typedef struct entry {
     jmp_buf out_of_memory;
     jmp_buf *outer;
     plr_diags *outer_diags;
 } entry;
 
-#define ENTER(e, scene, diagnostics)                                                               \
-    ((e).outer = (scene)->arena.out_of_memory, (e).outer_diags = (scene)->diags,                   \
-     (scene)->diags = (diagnostics), (scene)->arena.out_of_memory = &(e).out_of_memory,            \
-     setjmp((e).out_of_memory) == 0)
+static void enter(entry *e, plr_scene *scene, plr_diags *diags) {
+    e->outer = scene->arena.out_of_memory;
+    e->outer_diags = scene->diags;
+    scene->arena.out_of_memory = &e->out_of_memory;
+    scene->diags = diags;
+}
 
 static void leave(entry *e, plr_scene *scene) {
     scene->arena.out_of_memory = e->outer;
@@ -144,7 +146,8 @@ bool plr_scene_load(plr_scene *scene, const plr_string *url, bool gunzip, plr_by
                     plr_diags *diags) {
     entry e;
     *bytes = (plr_bytes){0};
-    if (!ENTER(e, scene, diags))
+    enter(&e, scene, diags);
+    if (setjmp(e.out_of_memory) != 0)
         return out_of_memory(&e, scene, place_of(url));
     const char *name;
     x3d_failure failure = load(scene, url, gunzip, bytes, &name);
@@ -160,7 +163,8 @@ bool plr_scene_load_first(plr_scene *scene, const plr_field *urls, bool gunzip, 
     *bytes = (plr_bytes){0};
     if (!urls || plr_type_kind(urls->type) != PLR_STRING)
         return false;
-    if (!ENTER(e, scene, diags))
+    enter(&e, scene, diags);
+    if (setjmp(e.out_of_memory) != 0)
         return out_of_memory(&e, scene, urls->place);
     x3d_failure first = {PLR_CODE_MISSING_FILE, "no url is given"};
     const char *first_name = "";
@@ -211,7 +215,8 @@ bool plr_scene_load_beside(plr_scene *scene, const char *referrer, const char *n
                            plr_place place, plr_bytes *bytes, plr_diags *diags) {
     entry e;
     *bytes = (plr_bytes){0};
-    if (!ENTER(e, scene, diags))
+    enter(&e, scene, diags);
+    if (setjmp(e.out_of_memory) != 0)
         return out_of_memory(&e, scene, place);
     x3d_located located;
     x3d_failure failure =
@@ -303,7 +308,8 @@ bool plr_scene_code(plr_scene *scene, const plr_node *node, const char *field, p
     *code = (plr_string){.text = ""};
     if (!urls || plr_type_kind(urls->type) != PLR_STRING || !urls->count)
         return false;
-    if (!ENTER(e, scene, diags))
+    enter(&e, scene, diags);
+    if (setjmp(e.out_of_memory) != 0)
         return out_of_memory(&e, scene, urls->place);
     x3d_failure first = {PLR_CODE_MISSING_FILE, NULL};
     const char *first_name = "";

@@ -331,20 +331,39 @@ static void add_text(xml *x, const x3d_xml_token *token) {
 /* ---- Statements
  * ----------------------------------------------------------------------------------- */
 
+/* Whether this part of a document stands where it belongs; else it is skipped (reported). */
+static bool stands_right(xml *x, bool right, const char *element) {
+    if (right)
+        return true;
+    x3d_report(x->scene, PLR_CODE_SYNTAX, place_at(x, x->token.at), "'%s' cannot stand here",
+               element);
+    skip(x);
+    return false;
+}
+
+static bool in_root(const xml *x) {
+    return x->top && x->top->kind == ROOT;
+}
+
 static void begin_root(xml *x) {
-    frame *f = push(x, ROOT);
     x3d_label version;
-    (void)f;
+    if (!stands_right(x, !x->top, "X3D"))
+        return;
+    push(x, ROOT);
     if (value_label(x, "version", &version))
         x3d_set_version(x->build, version.text, version.length);
 }
 
 static void begin_head(xml *x) {
-    push(x, HEAD);
+    if (stands_right(x, in_root(x), "head"))
+        push(x, HEAD);
 }
+
 static void begin_scene(xml *x) {
-    push(x, SCENE);
+    if (stands_right(x, !x->top || in_root(x), "Scene"))
+        push(x, SCENE);
 }
+
 static void begin_instance(xml *x) {
     begin_node(x, (x3d_label){"ProtoInstance", 13, place_at(x, x->token.at)}, true);
 }
@@ -768,6 +787,7 @@ void x3d_read_xml(x3d_build *build) {
     x->context = xmlCreateMemoryParserCtxt(file->text, (int)file->length);
     if (x->context) {
         parse(x);
+        xmlFreeDoc(x->context->myDoc); /* libxml2 makes one for declarations of entities */
         xmlFreeParserCtxt(x->context);
     }
     if (!x->context || x->no_memory)

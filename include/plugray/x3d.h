@@ -1,5 +1,5 @@
-/* plugray/x3d.h - reading X3D scenes: XML, Classic VRML and VRML97, plain or gzipped, into one typed
- * graph. No GL, no drawing.
+/* plugray/x3d.h - reading X3D scenes: XML, Classic VRML and VRML97, plain or gzipped, into one
+ * typed graph. No GL, no drawing.
  *
  * Thread safety: one scene may be used by one thread at a time. Nothing is printed or global. All
  * pointers that a scene gives out live until the scene is destroyed or the field is set. */
@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* ---- Files ------------------------------------------------------------------------------------ */
+/* ---- Files ------------------------------------------------------------------------------------
+ */
 
 /* What a scene may read. Zero value: files inside the folder of the scene (symbolic links resolved)
  * and below, nothing else, never the network. */
@@ -36,7 +37,8 @@ typedef struct plr_bytes {
 typedef struct plr_scene plr_scene;
 typedef struct plr_node plr_node;
 
-/* ---- Values ------------------------------------------------------------------------------------- */
+/* ---- Values -------------------------------------------------------------------------------------
+ */
 
 /* All field types of ISO/IEC 19775-1 clause 5. PLR_TYPE(identifier, name, kind, components) */
 #define PLR_TYPES(PLR_TYPE)                                                                        \
@@ -119,15 +121,21 @@ typedef enum plr_access {
     PLR_INPUT_OUTPUT
 } plr_access;
 
+/* Matrices are kept in the order of the file, which gives row after row, the top row first (ISO/IEC
+ * 19776-1 and 19776-2, 5.9 to 5.12). They multiply row vectors: the translation of an SFMatrix4f is
+ * its fourth row (ISO/IEC 19775-1, 5.3). So the numbers as they are, taken column after column as
+ * GL takes them, are the matrix that multiplies column vectors: glUniformMatrix4fv without
+ * transposing. */
+
 /* One field of one node, with its value now. `count` is the number of elements: 1 for SFxxx, except
- * that an SFNode of NULL has 0. SFImage: width, height, components, then the pixels; `count` is then
- * the number of integers. */
+ * that an SFNode of NULL has 0. SFImage: width, height, components, then the pixels; `count` is
+ * then the number of integers. */
 typedef struct plr_field {
     const char *name;
     plr_type type;
     plr_access access;
-    bool given;    /* the file or a setter gives it; else it has its default */
-    bool declared; /* the author declared it (on Effect, ComposedShader, Script, ...) */
+    bool given;      /* the file or a setter gives it; else it has its default */
+    bool declared;   /* the author declared it (on Effect, ComposedShader, Script, ...) */
     plr_place place; /* of the field's name where given or declared, else of the node */
     size_t count;
     union {
@@ -141,14 +149,15 @@ typedef struct plr_field {
     } value;
 } plr_field;
 
-/* ---- Scenes --------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * --------------------------------------------------------------------------------------- */
 
 typedef struct plr_read_desc {
     plr_file_rules rules;
     const plr_allocator *allocator; /* NULL: the C library's (libxml2 and zlib keep their own) */
     size_t max_nodes;               /* after prototypes and inlines; 0: 10 million */
-    size_t max_depth;               /* of nesting of nodes, inlines, prototypes; 0: 512, at most 2000 */
-    size_t max_memory;              /* of the graph in bytes, texts of files not counted; 0: 4 GiB */
+    size_t max_depth;  /* of nesting of nodes, inlines, prototypes; 0: 512, at most 2000 */
+    size_t max_memory; /* of the graph in bytes, texts of files not counted; 0: 4 GiB */
 } plr_read_desc;
 
 /* Reads the file at `path` with everything that it inlines. Faults are reported and what can be
@@ -160,15 +169,16 @@ PLR_API plr_scene *plr_scene_parse(const char *text, size_t length, const char *
                                    const plr_read_desc *desc, plr_diags *diags);
 PLR_API void plr_scene_destroy(plr_scene **scene);
 
-/* The top-level nodes, in the order of the file; inlined content is inside its Inline nodes. */
+/* The top-level nodes, in the order of the file; inlined content is inside its Inline nodes, in
+ * their field `children`. */
 PLR_API size_t plr_scene_root_count(const plr_scene *scene);
 PLR_API plr_node *plr_scene_root(const plr_scene *scene, size_t index);
 /* The first node with this DEF name in the main file, or NULL. */
 PLR_API plr_node *plr_scene_find(const plr_scene *scene, const char *def);
 /* "3.3", "4.0"; "2.0" for VRML97. */
 PLR_API const char *plr_scene_version(const plr_scene *scene);
-/* Metres per length unit of the file, radians per angle unit (UNIT statements); 1 without. Values of
- * inlined files are converted to the units of the main file. */
+/* Metres per length unit of the file, radians per angle unit (UNIT statements); 1 without. Values
+ * of inlined files are converted to the units of the main file. */
 PLR_API double plr_scene_length_unit(const plr_scene *scene);
 PLR_API double plr_scene_angle_unit(const plr_scene *scene);
 /* META statements in order: name and content; NULL beyond the last. */
@@ -187,6 +197,8 @@ typedef struct plr_route {
 } plr_route;
 PLR_API size_t plr_scene_route_count(const plr_scene *scene);
 PLR_API const plr_route *plr_scene_route(const plr_scene *scene, size_t index);
+
+/* The functions below report a failure at the first byte of the url, that is behind its quote. */
 
 /* Reads the file that a url means, under the scene's rules: `url` is a string of a node of this
  * scene, relative to the file in which it stands; "data:" urls are decoded (base64; else taken as
@@ -210,10 +222,12 @@ PLR_API void plr_bytes_free(plr_bytes *bytes);
 PLR_API bool plr_scene_code(plr_scene *scene, const plr_node *node, const char *field,
                             plr_string *code, plr_diags *diags);
 
-/* ---- Nodes ------------------------------------------------------------------------------------------ */
+/* ---- Nodes
+ * ------------------------------------------------------------------------------------------ */
 
 /* Node type as the tables name it ("Transform"); aliases of old dialects give the final name. An
- * instance of a prototype is the first node of its body. */
+ * instance of a prototype is the first node of its body, with the place and the DEF name of the
+ * instance; its written type is the name of the prototype. */
 PLR_API const char *plr_node_type(const plr_node *node);
 PLR_API bool plr_node_is(const plr_node *node, const char *type);
 /* DEF name or NULL. */
@@ -231,32 +245,38 @@ PLR_API const plr_field *plr_node_field(const plr_node *node, const char *name);
 PLR_API size_t plr_node_field_count(const plr_node *node);
 PLR_API const plr_field *plr_node_field_at(const plr_node *node, size_t index);
 
-/* The value of a field of one element; zero, "" or NULL where there is no such field of that kind. */
+/* The value of a field of one element; zero, "" or NULL where there is no such field of that kind.
+ */
 PLR_API bool plr_node_bool(const plr_node *node, const char *field);
 PLR_API int32_t plr_node_int(const plr_node *node, const char *field);
 PLR_API double plr_node_number(const plr_node *node, const char *field); /* float, double, int */
 PLR_API const char *plr_node_string(const plr_node *node, const char *field);
-PLR_API plr_node *plr_node_child(const plr_node *node, const char *field); /* SFNode, first of MFNode */
-/* Copies up to `count` numbers of the first element (or of all, for MF fields) to `numbers`, returns
- * how many. */
+PLR_API plr_node *plr_node_child(const plr_node *node,
+                                 const char *field); /* SFNode, first of MFNode */
+/* Copies up to `count` numbers of the first element (or of all, for MF fields) to `numbers`,
+ * returns how many. */
 PLR_API size_t plr_node_numbers(const plr_node *node, const char *field, float *numbers,
                                 size_t count);
 
+/* Both setters take what a ROUTE may set and what only a file may: the caller knows best. */
+
 /* Sets a field from text in the notation of Classic VRML ("0.5", "1 0 0", "[ 1 2 3 ]", "TRUE",
- * "\"text\"" or a bare word for one string). False with an error at `place` where it does not fit. */
+ * "\"text\"" or a bare word for one string). On an instance of a prototype a field of its interface
+ * sets all fields that carry it. False with an error at `place` where it does not fit. */
 PLR_API bool plr_node_set_text(plr_scene *scene, plr_node *node, const char *field,
                                const char *text, plr_place place, plr_diags *diags);
 /* Sets a field of numbers or bools from an array of its kind; `count` in elements. */
 PLR_API bool plr_node_set(plr_scene *scene, plr_node *node, const char *field, const void *values,
                           size_t count);
 
-/* ---- The table of nodes ----------------------------------------------------------------------------- */
+/* ---- The table of nodes
+ * ----------------------------------------------------------------------------- */
 
 typedef struct plr_field_info {
     const char *name;
     plr_type type;
     plr_access access;
-    const char *initial; /* default in Classic VRML notation; "" for empty and NULL */
+    const char *initial;     /* default in Classic VRML notation; "" for empty and NULL */
     double minimum, maximum; /* of each number; -INFINITY and INFINITY: unbounded */
     bool exclusive_minimum, exclusive_maximum;
     const char *nodes; /* for nodes: the types and abstract types allowed, separated by blanks */

@@ -74,8 +74,8 @@ static void add_node(text *t, const plr_scene *scene, const plr_node *node, int 
         const plr_field *field = plr_node_field_at(node, i);
         if (!field->given && !field->declared && strcmp(field->name, "children") != 0)
             continue;
-        if (!field->given && !field->count)
-            continue;
+        if (!field->count && (!field->given || plr_type_kind(field->type) == PLR_NODE))
+            continue; /* an empty list of nodes is the same as none */
         add(t, "\n%*s.%s %s%s", depth * 2 + 1, "", field->name, plr_type_name(field->type),
             field->declared ? " declared" : "");
         add_value(t, scene, field, numbers, next, depth);

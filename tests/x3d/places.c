@@ -96,6 +96,7 @@ static void test_base64(void) {
     CHECK(plr_scene_code(scene, part_of(scene), "url", &code, diags));
     CHECK_STR(code.text, "int x;\n");
     plr_scene_destroy(&scene);
+    plr_diags_destroy(&diags);
     scene = parse_text(PART("url='data:text/plain,100%25 \\n'/>"), "s", &diags);
     CHECK(plr_scene_code(scene, part_of(scene), "url", &code, diags));
     CHECK_STR(code.text, "100%25 \\n");

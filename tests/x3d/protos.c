@@ -34,8 +34,7 @@ static void test_instances(void) {
                "   .geometry SFNode\n"
                "    12 Sphere -\n"
                "     .radius SFFloat 3\n"
-               "  13 Group -\n"
-               "   .children MFNode\n");
+               "  13 Group -\n");
 }
 
 static const char nested_graph[] = "1 Transform T\n"

@@ -1,0 +1,7 @@
+/* Scenes in XML, as they are. */
+#include "scene.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_scene((const char *)data, size);
+    return 0;
+}
