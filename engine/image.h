@@ -1,5 +1,5 @@
-/* Images in memory: reading (PNG 8 and 16 bit, JPEG, HDR, BMP, TGA, GIF by stb_image; float NRRD of
- * two dimensions by the volume reader) and writing pictures (PNG, EXR, NPY). */
+/* Images in memory: reading (PNG of 8 and 16 bits, JPEG, Radiance HDR, BMP, TGA, GIF; NRRD of one
+ * slice by the volume reader), pixel fields, single samples. docs/volumes.md says what is read. */
 #ifndef PLR_ENGINE_IMAGE_H
 #define PLR_ENGINE_IMAGE_H
 
