@@ -71,7 +71,7 @@ if tracked.returncode == 0:
         path = root / name
         if path.suffix in (".c", ".h", ".py", ".glsl", ".build", ".md", ".def", ".sh") and path.exists():
             data = path.read_bytes()
-            if b"\r" in data or b"\t" in data and path.suffix != ".md" or not data.endswith(b"\n"):
+            if b"\r" in data or b"\t" in data and path.suffix != ".md" or data and not data.endswith(b"\n"):
                 wrong.append(name)
     check(not wrong, "sources have no tabs, no carriage returns and end with a newline", *wrong)
 done()
