@@ -185,6 +185,22 @@ static void mark_doubled(marker *m, uint32_t i) {
         m->tokens[i].flags |= PLR_TF_DROP;
 }
 
+/* Whether a word that became reserved is a name here: a qualifier stands before another word, a
+ * built-in function before a parenthesis. */
+static bool is_name_use(const marker *m, uint32_t i) {
+    const plr_token *token = &m->tokens[i];
+    unsigned kinds = plr_word_get(m->lexed->idents.items[token->value].word)->kinds;
+    uint8_t before = token[-1].kind, next = token[1].kind;
+    if (!(kinds & PLR_WORD_IS_SINCE) || token->flags & PLR_TF_MEMBER)
+        return false;
+    if (token->flags & PLR_TF_PLAIN && (before == '(' || next == ')'))
+        return false; /* a key of layout */
+    if (next == '(')
+        return !(kinds & PLR_WORD_IS_BUILTIN) && before == PLR_T_IDENT &&
+               !has_kind(m->lexed, i - 1, PLR_WORD_IS_KEYWORD | PLR_WORD_IS_QUALIFIER);
+    return next != PLR_T_IDENT;
+}
+
 /* Words that became reserved and that the text uses as names: sampler2D texture, float sample = ...
  */
 static void mark_declared_words(marker *m) {
@@ -203,11 +219,7 @@ static void mark_declared_words(marker *m) {
             (has_kind(lexed, i, PLR_WORD_IS_INOUT) || ident->word == PLR_WORD_const) &&
             (has_kind(lexed, i + 1, PLR_WORD_IS_INOUT) || is_word(lexed, i + 1, PLR_WORD_const)))
             mark_doubled(m, i);
-        if ((plr_word_get(ident->word)->kinds & PLR_WORD_IS_SINCE) &&
-            !(token->flags & PLR_TF_MEMBER) && m->tokens[i - 1].kind == PLR_T_IDENT &&
-            !has_kind(lexed, i - 1, PLR_WORD_IS_KEYWORD | PLR_WORD_IS_QUALIFIER) &&
-            (next == ',' || next == ';' || next == '=' || next == ')' || next == '[' ||
-             (next == '(' && !(plr_word_get(ident->word)->kinds & PLR_WORD_IS_BUILTIN))))
+        if (is_name_use(m, i))
             ident->flags |= PLR_IF_DECLARED;
     }
 }

@@ -24,7 +24,9 @@ void plr_say(plr_linking *l, plr_code code, plr_place place, const char *format,
 void plr_say_note(plr_linking *l, plr_place place, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say(l, PLR_NOTE, PLR_CODE_LACKS, place, format, arguments);
+    size_t count = l->messages.count;
+    plr_code code = count ? l->messages.items[count - 1].code : PLR_CODE_LACKS;
+    say(l, PLR_NOTE, code, place, format, arguments);
     va_end(arguments);
 }
 

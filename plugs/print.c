@@ -398,8 +398,7 @@ static void print_condition(plr_printer *p, const plr_directive *directive) {
             size_t size;
             const char *text = plr_token_text(p->unit->lexed, token, &size);
             const plr_token *before = token - 1;
-            if (i == directive->token + 1 || before->offset + before->length != token->offset ||
-                before->kind == PLR_T_IDENT)
+            if (i == directive->token + 1 || before->offset + before->length != token->offset)
                 put(p, " ", 1);
             put(p, text, size);
             next = i + 1;

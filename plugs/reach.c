@@ -157,6 +157,25 @@ static void reach_roots(plr_linking *l, plr_scope *scope, bool all) {
     }
 }
 
+/* The text of an item; a function's own name is no use of it. */
+static void reach_item(plr_linking *l, plr_node *node) {
+    const plr_item *item = node->item;
+    plr_unit *unit = node->unit;
+    uint32_t first = item->first;
+    reach_range(l, node, item->prefix, item->prefix_end);
+    if (item->kind == PLR_ITEM_FUNCTION && node->symbol) {
+        const plr_name *name = &unit->cut->names.items[item->names];
+        uint32_t local = unit->lexed->tokens.items[name->token].value;
+        if (!name->inner && name->kind == PLR_ITEM_FUNCTION && name->token >= first) {
+            if (unit->actions[local] == PLR_ACTION_UNKNOWN)
+                plr_resolve(l, unit, local);
+            reach_range(l, node, first, name->token);
+            first = name->token + 1;
+        }
+    }
+    reach_range(l, node, first, item->end);
+}
+
 static void drain(plr_linking *l) {
     while (l->queue.count) {
         plr_node *node = l->queue.items[--l->queue.count];
@@ -166,8 +185,7 @@ static void drain(plr_linking *l) {
             reach_roots(l, scope, false);
         }
         l->stamp++;
-        reach_range(l, node, node->item->prefix, node->item->prefix_end);
-        reach_range(l, node, node->item->first, node->item->end);
+        reach_item(l, node);
     }
 }
 

@@ -21,7 +21,9 @@ const char *plr_source_text(const plr_source *source, size_t *length) {
     return source->text;
 }
 
-size_t plr_source_plug_count(const plr_source *source) { return source->lexed.plugs.count; }
+size_t plr_source_plug_count(const plr_source *source) {
+    return source->lexed.plugs.count;
+}
 
 const char *plr_source_plug(const plr_source *source, size_t index, size_t *length) {
     const plr_lexed *lexed = &source->lexed;

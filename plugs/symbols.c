@@ -100,15 +100,15 @@ static void add_symbol(plr_program *program, plr_table *known, const plr_node *n
         !symbol_kind(name, stage, &kind))
         return;
     const plr_ident *ident = plr_token_ident(unit, name->token);
-    plr_binding *binding = node->symbol;
-    if (!binding || ident->flags & PLR_IF_GL)
+    if (ident->flags & PLR_IF_GL)
         return;
-    if (binding->gid != plr_token_gid(unit, name->token))
-        binding = plr_binding_find(l, unit->scope, plr_token_gid(unit, name->token));
+    uint32_t gid = plr_token_gid(unit, name->token);
+    plr_binding *binding = node->symbol;
+    if (!binding || binding->gid != gid)
+        binding = plr_binding_find(l, unit->scope, gid);
     uint32_t length = ident->length;
     const char *text = binding ? plr_binding_text(l, binding, &length) : ident->text;
     bool owned = binding && binding->renamed;
-    uint32_t gid = plr_token_gid(unit, name->token);
     uint64_t key =
         ((uint64_t)(owned ? unit->scope->owner + 1 : 0) << 34) | (uint64_t)kind << 32 | gid;
     void **slot = binding && binding->variant ? NULL : plr_table_put(&program->arena, known, key);

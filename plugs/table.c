@@ -1,8 +1,8 @@
 #include "plugs/link.h"
 
 static size_t slot_of(const plr_table *table, uint64_t key) {
-    uint64_t hash = key * 0x9E3779B97F4A7C15u;
-    size_t slot = (size_t)(hash >> 20) & table->mask;
+    uint64_t hash = (key ^ key >> 29) * 0x9E3779B97F4A7C15u;
+    size_t slot = (size_t)(hash >> 32) & table->mask;
     while (table->keys[slot] && table->keys[slot] != key)
         slot = (slot + 1) & table->mask;
     return slot;
