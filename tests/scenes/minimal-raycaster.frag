@@ -1,0 +1,62 @@
+#version 330 core
+// A raycaster written by hand for one bare volume: what the composed program is measured against.
+// It does the same work: perspective and parallel rays, the box, midpoint samples with a shortened last
+// step, a transfer function, opacity corrected for the step, front to back, an early end.
+
+uniform mat4 castle_ProjectionMatrix;
+uniform vec4 viewport;
+uniform mat4 eyeToLocal;
+uniform vec3 dimensions;
+uniform float sampleDistance;
+uniform float referenceLength;
+uniform float transparencyLeft;
+uniform sampler3D voxels;
+uniform sampler2D transferFunction;
+
+out vec4 result;
+
+void main() {
+    vec2 ndc = (gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0;
+    mat4 p = castle_ProjectionMatrix;
+    vec2 scale = vec2(p[0][0], p[1][1]);
+    vec3 origin = vec3(0.0), direction = vec3(0.0, 0.0, -1.0);
+    if (p[2][3] != 0.0)
+        direction = normalize(vec3((ndc + p[2].xy) / scale, -1.0));
+    else
+        origin.xy = (ndc - p[3].xy) / scale;
+
+    vec3 o = (eyeToLocal * vec4(origin, 1.0)).xyz;
+    vec3 d = mat3(eyeToLocal) * direction;
+    float enter = 0.0, leave = 3.0e38;
+    for (int axis = 0; axis < 3; axis++) {
+        float half_size = 0.5 * dimensions[axis];
+        if (d[axis] == 0.0) {
+            if (!(abs(o[axis]) <= half_size))
+                leave = -1.0;
+            continue;
+        }
+        float a = (-half_size - o[axis]) / d[axis], b = (half_size - o[axis]) / d[axis];
+        enter = max(enter, min(a, b));
+        leave = min(leave, max(a, b));
+    }
+
+    vec4 sum = vec4(0.0);
+    float speed = length(d);
+    float whole = max(leave - enter, 0.0);
+    float pace = sampleDistance / speed;
+    int steps = int(min(ceil(whole / pace), 1.0e6));
+    vec2 size = vec2(textureSize(transferFunction, 0));
+    for (int i = 0; i < steps; i++) {
+        float done = float(i) * pace;
+        float span = min(pace, whole - done);
+        vec3 position = (o + (enter + done + 0.5 * span) * d) / dimensions + 0.5;
+        vec2 at = vec2(clamp(texture(voxels, position).r, 0.0, 1.0), 0.0);
+        vec4 color = clamp(texture(transferFunction, (at * (size - 1.0) + 0.5) / size), 0.0, 1.0);
+        if (color.a < 1.0)
+            color.a = 1.0 - pow(1.0 - color.a, span * speed / referenceLength);
+        sum += (1.0 - sum.a) * vec4(color.rgb * color.a, color.a);
+        if (1.0 - sum.a < transparencyLeft)
+            break;
+    }
+    result = sum;
+}
