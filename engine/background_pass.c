@@ -24,7 +24,7 @@ void plr_background_prepare(plr_view *view) {
 }
 
 /* Clears depth and colour: to the background's first colour, or to transparent black. */
-static void clear(const plr_view *view) {
+static void clear(const plr_view *view, const plr_frame *frame) {
     const plr_gl *gl = &view->engine->gl;
     float color[4] = {0, 0, 0, 0};
     const plr_node *node = view->flat.background;
@@ -38,13 +38,13 @@ static void clear(const plr_view *view) {
     gl->DepthMask(GL_TRUE);
     gl->Disable(GL_SCISSOR_TEST);
     gl->ClearColor(color[0], color[1], color[2], color[3]);
-    gl->ClearDepth(1);
+    gl->ClearDepth(frame->reversed_depth ? 0 : 1);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void plr_background_draw(plr_view *view, const plr_frame *frame) {
     const plr_gl *gl = &view->engine->gl;
-    clear(view);
+    clear(view, frame);
     if (!view->background.built)
         return;
     gl->Disable(GL_DEPTH_TEST);

@@ -123,6 +123,13 @@ static void v_cut(const context *c, float *out) {
     out[0] = (float)c->values->frame->cut[0];
     out[1] = (float)fmin(c->values->frame->cut[1], 3e38);
 }
+static void v_depth_to_clip(const context *c, float *out) {
+    out[0] = c->values->frame->reversed_depth ? 1 : 2;
+    out[1] = c->values->frame->reversed_depth ? 0 : -1;
+}
+static void v_empty_depth(const context *c, float *out) {
+    out[0] = c->values->frame->reversed_depth ? 0 : 1;
+}
 static void v_time(const context *c, float *out) {
     out[0] = (float)c->values->frame->time;
 }
@@ -186,6 +193,8 @@ static const struct known {
     {"plugray_Time", OWNER_HOST, v_time},
     {"viewport", OWNER_HOST, v_viewport},
     {"viewpointCut", OWNER_HOST, v_cut},
+    {"depthToClip", OWNER_HOST, v_depth_to_clip},
+    {"emptyDepth", OWNER_HOST, v_empty_depth},
     {"transparencyLeft", OWNER_HOST, v_transparency_left},
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
@@ -318,7 +327,7 @@ static const plr_field *counted_field(const plr_node *node, const char *name) {
 
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
 static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
-                        bool builtin, plr_slot *slot) {
+                        bool builtin, size_t element, plr_slot *slot) {
     if (slot->type->shape == SHAPE_SAMPLER && !binding) {
         slot->source = SLOT_OPAQUE_DEPTH;
         return strcmp(symbol->name, "opaqueDepth") == 0;
@@ -359,8 +368,8 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
         return true;
     slot->source = SLOT_TEXTURE;
     slot->clamp = builtin;
-    if (slot->field->count)
-        slot->texture = plr_textures_get(k->textures, slot->field->value.nodes[0]);
+    if (element < slot->field->count && slot->field->value.nodes[element])
+        slot->texture = plr_textures_get(k->textures, slot->field->value.nodes[element]);
     return slot->texture != NULL;
 }
 
@@ -384,11 +393,19 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
             continue;
         slot.location = gl->GetUniformLocation(name, symbol->program);
         bool builtin = !own && recipe->effects.items[symbol->effect].builtin;
-        if (slot.location < 0 || !find_source(k, symbol, binding, builtin, &slot))
+        if (slot.location < 0)
             continue;
-        if (slot.type->shape == SHAPE_SAMPLER)
-            slot.unit = units++;
-        *PLR_PUSH(k->arena, slots) = slot;
+        /* every sampler of an array is a slot of its own */
+        bool many = slot.type->shape == SHAPE_SAMPLER && symbol->array;
+        for (uint32_t element = 0; element < (many ? symbol->array : 1); element++) {
+            plr_slot one = slot;
+            one.location += (GLint)element;
+            if (!find_source(k, symbol, binding, builtin, element, &one))
+                break;
+            if (one.type->shape == SHAPE_SAMPLER)
+                one.unit = units++;
+            *PLR_PUSH(k->arena, slots) = one;
+        }
     }
 }
 

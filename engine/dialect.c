@@ -42,6 +42,8 @@ int plr_dialect(const plr_flat *flat, int asked, plr_diags *diags) {
     for (size_t i = 0; i < flat->volumes.count && !reason; i++)
         reason = find_2005(flat->volumes.items[i].node, 0);
     int dialect = asked ? asked : reason ? PLR_DIALECT_2005 : PLR_DIALECT_FINAL;
+    if (dialect == PLR_DIALECT_FINAL && !asked)
+        return dialect; /* what everybody expects needs no line */
     plr_place place = plr_node_place(reason ? reason : flat->volumes.items[0].node);
     plr_diags_add(diags, PLR_CODE_DIALECT, place, "volume nodes are read as %s%s",
                   dialect == PLR_DIALECT_2005 ? "the proposal of 2005 has them"

@@ -110,9 +110,17 @@ plr_matrix plr_matrix_perspective(const double at_one[4], double near, double fa
     result.m[5] = 2 / height;
     result.m[8] = (at_one[2] + at_one[0]) / width;
     result.m[9] = (at_one[3] + at_one[1]) / height;
-    result.m[10] = -(far + near) / (far - near);
+    result.m[10] = isinf(far) ? -1 : -(far + near) / (far - near);
     result.m[11] = -1;
-    result.m[14] = -2 * far * near / (far - near);
+    result.m[14] = isinf(far) ? -2 * near : -2 * far * near / (far - near);
+    return result;
+}
+
+plr_matrix plr_matrix_reversed_depth(const plr_matrix *projection) {
+    plr_matrix result = *projection;
+    for (int column = 0; column < 4; column++)
+        result.m[column * 4 + 2] =
+            0.5 * (projection->m[column * 4 + 3] - projection->m[column * 4 + 2]);
     return result;
 }
 

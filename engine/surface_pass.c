@@ -260,7 +260,7 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
     if (!surface->vertex_array)
         upload_mesh(view, surface);
     gl->Enable(GL_DEPTH_TEST);
-    gl->DepthFunc(GL_LEQUAL);
+    gl->DepthFunc(frame->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
     gl->DepthMask(!surface->blends);
     if (surface->blends) {
         gl->Enable(GL_BLEND);

@@ -236,7 +236,7 @@ void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double
     plr_viewpoint_cut(viewpoint, cut);
     double near = cut[0] > 0 ? cut[0] : depths[0], far = isfinite(cut[1]) ? cut[1] : depths[1];
     if (!(far > near))
-        far = near + 1;
+        far = near + 1 + fabs(near);
     double aspect = width / height;
     if (viewpoint->node && plr_node_is(viewpoint->node, "OrthoViewpoint")) {
         float given[4] = {-1, -1, 1, 1};

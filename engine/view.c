@@ -132,25 +132,27 @@ void plr_view_destroy(plr_view **view) {
 /* ---- Drawing
  * -------------------------------------------------------------------------------------------- */
 
-/* Near and far planes that hold the surfaces, so that the depth buffer spends its digits on them.
- */
-static void plan_depths(const plr_view *view, double depths[2]) {
+/* Near and far planes. With reversed depths the far plane is infinitely far and the near plane may
+ * be as near as it likes: precision does not depend on them. Else, and in parallel projection, they
+ * hold the surfaces tightly. What effects move beyond them is not cut off: depths are clamped. */
+static void plan_depths(const plr_view *view, bool reversed, double depths[2]) {
     plr_matrix world_to_eye;
     plr_matrix_invert(&view->viewpoint->to_world, &world_to_eye);
     plr_surfaces_depths(view, &world_to_eye, depths);
     if (!(depths[1] >= depths[0])) {
         depths[0] = 0.1;
         depths[1] = 10;
-        return;
     }
     bool parallel = view->viewpoint->node && plr_node_is(view->viewpoint->node, "OrthoViewpoint");
     double margin = 1e-3 * (depths[1] - depths[0]) + 1e-6 * fabs(depths[1]);
     depths[1] += margin;
     depths[0] -= margin;
-    if (!parallel) {
-        depths[1] = fmax(depths[1], 1e-3);
-        depths[0] = fmax(depths[0], depths[1] * 1e-4);
-    }
+    if (parallel)
+        return;
+    depths[1] = fmax(depths[1], 1e-3);
+    depths[0] = fmax(depths[0], depths[1] * (reversed ? 1e-7 : 1e-4));
+    if (reversed)
+        depths[1] = INFINITY;
 }
 
 static int farther_first(const void *a, const void *b) {
@@ -192,8 +194,21 @@ static void draw_translucent(plr_view *view, const plr_frame *frame, GLuint targ
         plr_surface_draw(view, view->blending[next++], frame);
 }
 
+/* The depth conventions of our own framebuffer. */
+static void set_depth_range(const plr_view *view, const plr_frame *frame) {
+    const plr_gl *gl = &view->engine->gl;
+    if (gl->ClipControl)
+        gl->ClipControl(GL_LOWER_LEFT,
+                        frame->reversed_depth ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    if (frame->cut[0] > 0 || isfinite(frame->cut[1]))
+        gl->Disable(GL_DEPTH_CLAMP);
+    else
+        gl->Enable(GL_DEPTH_CLAMP);
+}
+
 static void draw_frame(plr_view *view, const plr_frame *frame) {
     const plr_gl *gl = &view->engine->gl;
+    set_depth_range(view, frame);
     gl->BindFramebuffer(GL_FRAMEBUFFER, view->color_only);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              view->framebuffer.color, 0);
@@ -214,15 +229,18 @@ static double radical_inverse(int index, int base) {
 }
 
 static void plan_frame(const plr_view *view, const plr_draw_desc *desc, int sample, int samples,
-                       plr_frame *frame) {
+                       bool reversed, plr_frame *frame) {
     double depths[2];
-    plan_depths(view, depths);
+    plan_depths(view, reversed, depths);
     *frame = (plr_frame){.viewport = {0, 0, desc->width, desc->height},
                          .time = view->desc.time,
-                         .opaque_depth = view->framebuffer.depth};
+                         .opaque_depth = view->framebuffer.depth,
+                         .reversed_depth = reversed};
     plr_viewpoint_cut(view->viewpoint, frame->cut);
     plr_viewpoint_matrices(view->viewpoint, desc->width, desc->height, depths, &frame->projection,
                            &frame->view);
+    if (reversed)
+        frame->projection = plr_matrix_reversed_depth(&frame->projection);
     if (samples > 1) {
         plr_matrix shift =
             plr_matrix_translation(2 * (radical_inverse(sample + 1, 2) - 0.5) / desc->width,
@@ -238,7 +256,7 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     plr_frame frame;
     bool fine = one != NULL;
     for (int sample = 0; fine && sample < samples; sample++) {
-        plan_frame(view, desc, sample, samples, &frame);
+        plan_frame(view, desc, sample, samples, view->engine->gl.ClipControl != NULL, &frame);
         draw_frame(view, &frame);
         fine = plr_framebuffer_read(&view->framebuffer, one);
         for (size_t i = 0; fine && samples > 1 && i < count; i++)
@@ -309,7 +327,7 @@ bool plr_view_draw_here(plr_view *view, const double *projection, const double *
         desc.width > 0 && desc.height > 0 && size_framebuffer(view, desc.width, desc.height, diags);
     if (fine) {
         plr_frame frame;
-        plan_frame(view, &desc, 0, 1, &frame);
+        plan_frame(view, &desc, 0, 1, false, &frame);
         matrix_from(&frame.projection, projection);
         matrix_from(&frame.view, camera);
         frame.viewport[0] = state.viewport[0];
@@ -347,6 +365,6 @@ void plr_view_get_stats(const plr_view *view, plr_view_stats *stats) {
     plr_draw_desc desc = {view->framebuffer.width, view->framebuffer.height, 1};
     if (desc.width < 1)
         return;
-    plan_frame(view, &desc, 0, 1, &frame);
+    plan_frame(view, &desc, 0, 1, false, &frame);
     stats->samples = plr_volume_pass_samples(view, &frame);
 }

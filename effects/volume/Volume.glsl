@@ -7,43 +7,36 @@ uniform float referenceLength;  /* an opacity means "after this length", own coo
 uniform sampler3D voxels;
 uniform int volumeIndex;
 
-vec3 local_origin;
-vec3 local_direction; /* own coordinates per unit of eye space */
-float enter = 0.0;
-float leave = 0.0;
-
-/* The part of the ray inside the box; a component of 0 is inside or outside for all of it. */
-void box_interval(out float t_enter, out float t_exit) {
-    t_enter = 0.0;
-    t_exit = 3.0e38;
-    for (int axis = 0; axis < 3; axis++) {
-        float o = local_origin[axis], d = local_direction[axis], half_size = 0.5 * dimensions[axis];
-        if (d == 0.0) {
-            if (!(abs(o) <= half_size))
-                t_exit = -1.0;
-            continue;
-        }
-        float a = (-half_size - o) / d, b = (half_size - o) / d;
-        t_enter = max(t_enter, min(a, b));
-        t_exit = min(t_exit, max(a, b));
-    }
-}
+/* Along the ray, t = 0 at the eye: where it is in the box of texture coordinates [0,1], how fast it
+ * moves there, and how fast in own coordinates. */
+vec3 ray_origin;
+vec3 ray_direction;
+float ray_speed;
+float enter;
+float leave;
 
 void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, const in float start,
                        const in float limit) {
-    local_origin = (eyeToLocal * vec4(origin_eye, 1.0)).xyz;
-    local_direction = mat3(eyeToLocal) * direction_eye;
-    float t_enter, t_exit;
-    box_interval(t_enter, t_exit);
-    enter = max(t_enter, start);
-    leave = min(t_exit, limit);
+    vec3 direction = mat3(eyeToLocal) * direction_eye;
+    ray_speed = length(direction);
+    ray_origin = (eyeToLocal * vec4(origin_eye, 1.0)).xyz / dimensions + 0.5;
+    ray_direction = direction / dimensions;
+    /* a component of 0 stays on its side of both faces: 1e-30 reaches neither in any picture */
+    vec3 d = mix(ray_direction, vec3(1.0e-30), equal(ray_direction, vec3(0.0)));
+    vec3 to_low = -ray_origin / d, to_high = (1.0 - ray_origin) / d;
+    vec3 near = min(to_low, to_high), far = max(to_low, to_high);
+    enter = max(max(near.x, near.y), max(near.z, start));
+    leave = min(min(far.x, far.y), min(far.z, limit));
 #if PLUG_USED(volume_ray)
+    float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */
     enter = max(enter, t_enter);
     leave = min(leave, t_exit);
 #endif
+#if VOLUME_COUNT > 1
     if (!(enter < leave))
         enter = leave = 0.0;
+#endif
 }
 
 #if VOLUME_COUNT > 1
@@ -56,7 +49,7 @@ void PLUG_volume_first(inout float t) {
 void PLUG_volume_part(inout float t, inout float t_next, inout float step_length) {
 #if VOLUME_COUNT > 1
     if (enter <= t && t < leave) {
-        step_length = min(step_length, sampleDistance / length(local_direction));
+        step_length = min(step_length, sampleDistance / ray_speed);
         t_next = min(t_next, leave);
     } else if (t < enter) {
         t_next = min(t_next, enter);
@@ -64,7 +57,7 @@ void PLUG_volume_part(inout float t, inout float t_next, inout float step_length
 #else
     t = enter;
     t_next = leave;
-    step_length = sampleDistance / length(local_direction);
+    step_length = sampleDistance / ray_speed;
 #endif
 }
 
@@ -86,12 +79,9 @@ vec3 gradient_at(const in vec3 position) {
     vec3 size = vec3(textureSize(voxels, 0));
     vec3 voxel = 1.0 / size;
     vec3 p = clamp(position, 0.5 * voxel, 1.0 - 0.5 * voxel);
-    vec3 difference;
-    for (int axis = 0; axis < 3; axis++) {
-        vec3 shift = vec3(0.0);
-        shift[axis] = voxel[axis];
-        difference[axis] = scalar_at(p + shift) - scalar_at(p - shift);
-    }
+    vec3 x = vec3(voxel.x, 0.0, 0.0), y = vec3(0.0, voxel.y, 0.0), z = vec3(0.0, 0.0, voxel.z);
+    vec3 difference = vec3(scalar_at(p + x) - scalar_at(p - x), scalar_at(p + y) - scalar_at(p - y),
+                           scalar_at(p + z) - scalar_at(p - z));
     return difference * size / (2.0 * dimensions);
 }
 #endif
@@ -117,7 +107,7 @@ vec4 clamped(const in vec4 color) {
 /* Colour and opacity per reference length at t. */
 void classify_and_shade(out vec4 color, out VolumeSample s, const in float t, const in float span,
                         const in vec3 origin_eye, const in vec3 direction_eye) {
-    vec3 position = (local_origin + t * local_direction) / dimensions + 0.5;
+    vec3 position = ray_origin + t * ray_direction;
     s.value = texture(voxels, position);
 #if READS(position)
     s.position = position;
@@ -126,7 +116,7 @@ void classify_and_shade(out vec4 color, out VolumeSample s, const in float t, co
     s.position_eye = origin_eye + t * direction_eye;
 #endif
 #if READS(step_length)
-    s.step_length = span * length(local_direction);
+    s.step_length = span * ray_speed;
 #endif
 #if READS(segment)
     s.segment = 0;
@@ -166,14 +156,14 @@ void PLUG_volume_mix(inout VolumeMix mixed, const in float t, const in float spa
     vec4 color;
     VolumeSample s;
     classify_and_shade(color, s, t, span, origin_eye, direction_eye);
-    volume_mix_add(mixed, color, span * length(local_direction) / referenceLength);
+    volume_mix_add(mixed, color, span * ray_speed / referenceLength);
 }
 #else
 void PLUG_volume_step(out vec4 color, out VolumeSample s, const in float t, const in float span,
                       const in vec3 origin_eye, const in vec3 direction_eye) {
     classify_and_shade(color, s, t, span, origin_eye, direction_eye);
     /* opacity of this step: 1 - (1 - alpha)^(length / reference); opaque stays opaque */
-    color.a = color.a >= 1.0 ? 1.0
-                             : 1.0 - pow(1.0 - color.a, span * length(local_direction) / referenceLength);
+    if (color.a < 1.0)
+        color.a = 1.0 - pow(1.0 - color.a, span * ray_speed / referenceLength);
 }
 #endif

@@ -32,6 +32,8 @@ struct VolumeSample {
 uniform vec4 viewport; /* x, y, width, height in pixels */
 #if HAS_OPAQUE
 uniform sampler2D opaqueDepth;
+uniform vec2 depthToClip;  /* scale and shift from the depth buffer to clip space */
+uniform float emptyDepth;  /* of pixels where nothing opaque is */
 #endif
 #if HAS_CUT
 uniform vec2 viewpointCut; /* near and far distance that the viewpoint asks for, as planes */
@@ -46,36 +48,35 @@ out vec4 plugray_FragColor;
 
 const float NOWHERE = 3.0e38;
 
+/* How many steps a part of the ray takes; a remainder that is only rounding is no step. */
+int step_count(float whole, float step_length) {
+    return int(ceil(min(whole / step_length - 1.0e-4, 1.0e6)));
+}
+
 #if HAS_OPAQUE
 /* Distance along the ray of what the depth buffer holds at this pixel. */
 float opaque_distance(vec3 direction_eye) {
     float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy - viewport.xy), 0).r;
-    if (depth >= 1.0)
+    if (depth == emptyDepth)
         return NOWHERE;
-    float ndc = 2.0 * depth - 1.0;
+    float ndc = depth * depthToClip.x + depthToClip.y;
     mat4 p = castle_ProjectionMatrix;
     float z = p[2][3] != 0.0 ? -p[3][2] / (ndc + p[2][2]) : (ndc - p[3][2]) / p[2][2];
     return z / direction_eye.z;
 }
 #endif
 
-/* The ray through the pixel's centre, from the eye or, in parallel projection, from its plane. */
-void ray_of_pixel(out vec3 origin_eye, out vec3 direction_eye) {
+void main() {
+    /* the ray through the pixel's centre, from the eye or, in parallel projection, from its plane */
     vec2 ndc = (gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0;
     mat4 p = castle_ProjectionMatrix;
     vec2 scale = vec2(p[0][0], p[1][1]);
-    if (p[2][3] != 0.0) {
-        origin_eye = vec3(0.0);
+    vec3 origin_eye = vec3(0.0), direction_eye = vec3(0.0, 0.0, -1.0);
+    if (p[2][3] != 0.0)
         direction_eye = normalize(vec3((ndc + p[2].xy) / scale, -1.0));
-    } else {
-        origin_eye = vec3((ndc - p[3].xy) / scale, 0.0);
-        direction_eye = vec3(0.0, 0.0, -1.0);
-    }
-}
+    else
+        origin_eye.xy = (ndc - p[3].xy) / scale;
 
-void main() {
-    vec3 origin_eye, direction_eye;
-    ray_of_pixel(origin_eye, direction_eye);
     float start = 0.0;
     float limit = NOWHERE;
 #if HAS_CUT
@@ -88,15 +89,15 @@ void main() {
     /* PLUG: volume_begin (origin_eye, direction_eye, start, limit) */
 
     vec4 accumulated = vec4(0.0);
+#if PLUG_USED(volume_ray_end)
     float depth = NOWHERE;
-#if VOLUME_COUNT > 1
+#endif
     float t = NOWHERE;
+#if VOLUME_COUNT > 1
     /* PLUG: volume_first (t) */
     /* Between two neighbouring entries and exits the set of volumes does not change: steps never
      * straddle one, and what does not overlap along this ray is met in order along this ray. */
     while (t < NOWHERE) { /* t grows from one entry or exit to the next */
-#else
-    float t = 0.0;
 #endif
         float t_next = NOWHERE;
         float step_length = NOWHERE;
@@ -104,14 +105,15 @@ void main() {
 #if VOLUME_COUNT > 1
         if (t_next >= NOWHERE)
             break;
+        int steps = step_length < NOWHERE ? step_count(t_next - t, step_length) : 0;
+#else
+        int steps = step_count(t_next - t, step_length);
 #endif
-        float whole = max(t_next - t, 0.0);
-        int steps = step_length < NOWHERE ? int(min(ceil(whole / step_length), 1.0e6)) : 0;
         for (int i = 0; i < steps; i++) {
+            float from = t + float(i) * step_length;
             /* the last step is shortened: lengths add up to the part */
-            float done = float(i) * step_length;
-            float span = min(step_length, whole - done);
-            float t_middle = t + done + 0.5 * span;
+            float span = i == steps - 1 ? t_next - from : step_length;
+            float t_middle = from + 0.5 * span;
             VolumeSample s;
             vec4 color;
 #if VOLUME_COUNT > 1
