@@ -21,10 +21,11 @@ typedef struct plr_mesh_attribute {
 typedef struct plr_mesh {
     plr_mesh_kind kind;
     uint32_t vertex_count;
-    float *positions;  /* 3 each */
-    float *normals;    /* 3 each, unit; triangles always have them */
-    float *tex_coords; /* 4 each (s, t, r, q); always for triangles: given, or X3D's default mapping */
-    float *colors;     /* 4 each */
+    float *positions; /* 3 each */
+    float *normals;   /* 3 each, unit; triangles always have them */
+    float *
+        tex_coords; /* 4 each (s, t, r, q); always for triangles: given, or X3D's default mapping */
+    float *colors;  /* 4 each */
     plr_mesh_attribute *attributes;
     size_t attribute_count;
     uint32_t *indices;
@@ -34,8 +35,8 @@ typedef struct plr_mesh {
     float bounds[2][3];
 } plr_mesh;
 
-/* Builds the mesh of a geometry node. Faults (bad-geometry) are reported at the node or field; what is
- * left is built. False if nothing can be drawn (unknown geometry: not-drawn). */
+/* Builds the mesh of a geometry node. Faults (bad-geometry) are reported at the node or field; what
+ * is left is built. False if nothing can be drawn (unknown geometry: not-drawn). */
 bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags);
 void plr_mesh_free(plr_mesh *mesh);
 
