@@ -58,8 +58,7 @@ static const plr_field *field_by_path(const plr_node *node, const char *path) {
     return child ? field_by_path(child, split + 1) : NULL;
 }
 
-/* ---- Values that the engine knows
- * ------------------------------------------------------------------ */
+/* ---- Values that the engine knows ---- */
 
 typedef struct context {
     const plr_values *values;
@@ -216,8 +215,7 @@ static const struct known *find_known(const char *name, const plr_binding *bindi
     return NULL;
 }
 
-/* ---- Checks that need no GL
- * ---------------------------------------------------------------------- */
+/* ---- Checks that need no GL ---- */
 
 static bool is_word(char c) {
     return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -289,8 +287,7 @@ bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *d
     return again;
 }
 
-/* ---- Slots
- * -------------------------------------------------------------------------------------------- */
+/* ---- Slots ---- */
 
 struct plr_slot {
     GLint location;

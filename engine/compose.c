@@ -23,8 +23,8 @@ plr_phase plr_clock(void) {
     return (plr_phase){milliseconds(CLOCK_PROCESS_CPUTIME_ID), milliseconds(CLOCK_MONOTONIC)};
 }
 
-static plr_program *link_recipe(plr_composer *c, const plr_recipe *recipe, bool keep_all,
-                                plr_diags *diags) {
+plr_program *plr_link_recipe(plr_composer *c, const plr_recipe *recipe, bool keep_all,
+                             plr_diags *diags) {
     size_t known_count;
     const plr_known_plug *known = plr_catalog_plugs(c->kitchen->catalog, &known_count);
     const plr_sources *library = plr_catalog_library(c->kitchen->catalog);
@@ -154,7 +154,7 @@ static plr_built *find_built(const plr_composer *c, const char *const texts[PLR_
 
 /* What nothing calls is not in the program; whether it would compile is worth a warning. */
 static void warn_unreached(plr_composer *c, plr_recipe *recipe) {
-    plr_program *program = link_recipe(c, recipe, true, NULL);
+    plr_program *program = plr_link_recipe(c, recipe, true, NULL);
     if (!program)
         return;
     const char *texts[PLR_STAGE_COUNT];
@@ -208,7 +208,7 @@ static bool compile(plr_composer *c, const char *const texts[PLR_STAGE_COUNT], v
 static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind, int round,
                            bool *again) {
     *again = false;
-    plr_program *program = link_recipe(c, recipe, false, c->diags);
+    plr_program *program = plr_link_recipe(c, recipe, false, c->diags);
     if (!program)
         return NULL;
     for (size_t i = 0; i < recipe->effects.count; i++)
@@ -244,7 +244,7 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
 }
 
 plr_built *plr_compose_program(plr_composer *c, plr_recipe *recipe, const char *kind,
-                       const plr_program **program) {
+                               const plr_program **program) {
     plr_built *built = NULL;
     bool again = true;
     for (int round = 0; again && !built; round++)

@@ -29,7 +29,10 @@ typedef struct plr_composer {
  * are marked disabled. The program of `built` is `*program` or one of equal text; both are owned by
  * the composer. NULL if base and built-in effects alone do not compile (reported). */
 plr_built *plr_compose_program(plr_composer *composer, plr_recipe *recipe, const char *kind,
-                       const plr_program **program);
+                               const plr_program **program);
+/* Links and nothing else; the caller destroys the program. */
+plr_program *plr_link_recipe(plr_composer *composer, const plr_recipe *recipe, bool keep_all,
+                             plr_diags *diags);
 void plr_composer_finish(plr_composer *composer);
 
 /* CPU time of all threads and wall time since some start, in milliseconds. */

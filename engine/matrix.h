@@ -19,8 +19,8 @@ plr_matrix plr_matrix_rotation(double x, double y, double z, double angle);
 bool plr_matrix_invert(const plr_matrix *a, plr_matrix *inverse);
 double plr_matrix_determinant3(const plr_matrix *a); /* of the upper left 3x3 */
 void plr_matrix_point(const plr_matrix *a, const double point[3], double result[3]);
-/* Symmetric or oblique frustum through the corners at distance 1: left, bottom, right, top. `far` may
- * be INFINITY. */
+/* Symmetric or oblique frustum through the corners at distance 1: left, bottom, right, top. `far`
+ * may be INFINITY. */
 plr_matrix plr_matrix_perspective(const double at_one[4], double near, double far);
 plr_matrix plr_matrix_orthographic(const double box[4], double near, double far);
 /* The same projection with clip depths from 1 (near) to 0 (far) instead of -1 to 1. */

@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- Composing
- * --------------------------------------------------------------------------------------- */
+/* ---- Composing ---- */
 
 static const plr_binding nothing = {.volume = PLR_NO_EFFECT};
 
@@ -116,7 +115,8 @@ static bool compose_shader(plr_view *view, plr_surface *surface, const plr_leaf 
         pass->recipe.base_node = shader;
         define_surface(view, &pass->recipe, surface);
         add_authors(view, &pass->recipe, leaf, appearance, 0);
-        pass->built = plr_compose_program(&view->composer, &pass->recipe, "surface", &pass->program);
+        pass->built =
+            plr_compose_program(&view->composer, &pass->recipe, "surface", &pass->program);
         if (pass->built)
             return true;
     }
@@ -145,8 +145,7 @@ void plr_surfaces_prepare(plr_view *view, plr_diags *diags) {
     }
 }
 
-/* ---- Depths
- * ------------------------------------------------------------------------------------------- */
+/* ---- Depths ---- */
 
 static void corner_depths(const plr_surface *surface, const plr_matrix *world_to_eye,
                           double depths[2]) {
@@ -176,9 +175,7 @@ void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, d
     }
 }
 
-/* ---- GL
- * --------------------------------------------------------------------------------------------------
- */
+/* ---- GL ---- */
 
 static GLuint upload_buffer(plr_view *view, plr_surface *surface, GLenum target, const void *data,
                             size_t size) {

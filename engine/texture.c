@@ -20,32 +20,8 @@ static bool is_translucent(const plr_image *image) {
     return false;
 }
 
-static bool load_file_image(plr_textures *t, const plr_node *node, plr_image *image) {
-    plr_bytes bytes = {0};
-    size_t index;
-    const plr_field *urls = plr_node_field(node, "url");
-    if (!urls || !plr_scene_load_first(t->scene, urls, true, &bytes, &index, t->diags))
-        return false;
-    plr_place place = {urls->place.file, urls->place.line, urls->place.column};
-    if (index < urls->count) {
-        const plr_string *url = &urls->value.strings[index];
-        place = plr_origin_place(&url->origin, url->text, 0);
-    }
-    bool fine;
-    if (bytes.length >= 4 && memcmp(bytes.data, "NRRD", 4) == 0) { /* float transfer functions */
-        plr_volume volume = {0};
-        fine = plr_volume_read(t->scene, &bytes, place, &volume, t->diags) &&
-               plr_volume_to_image(&volume, (double[]){0, 0}, image);
-        plr_volume_free(&volume);
-    } else {
-        fine = plr_image_decode(bytes.data, bytes.length, place, image, t->diags);
-    }
-    plr_bytes_free(&bytes);
-    return fine;
-}
-
-static bool load_pixels(plr_textures *t, const plr_node *node, plr_image *image) {
-    return plr_image_from_sfimage(plr_node_field(node, "image"), image, t->diags);
+static bool load_image(plr_textures *t, const plr_node *node, plr_image *image) {
+    return plr_image_from_texture(t->scene, node, image, t->diags);
 }
 
 static bool load_volume(plr_textures *t, const plr_node *node, plr_image *image) {
@@ -61,7 +37,7 @@ static const struct {
     int dimensions;
     bool (*load)(plr_textures *, const plr_node *, plr_image *);
 } loaders[] = {
-    {"ImageTexture", 2, load_file_image},  {"PixelTexture", 2, load_pixels},
+    {"ImageTexture", 2, load_image},       {"PixelTexture", 2, load_image},
     {"ImageTexture3D", 3, load_volume},    {"PixelTexture3D", 3, load_volume},
     {"ComposedTexture3D", 3, load_volume},
 };

@@ -8,8 +8,7 @@
 #include "engine/state.h"
 #include "engine/volume.h"
 
-/* ---- Making a view
- * ------------------------------------------------------------------------------------- */
+/* ---- Making a view ---- */
 
 /* The parts of the view that are set while diagnostics are at hand. */
 static void set_diags(plr_view *view, plr_diags *diags) {
@@ -33,9 +32,12 @@ static void init_parts(plr_view *view, const plr_catalog *catalog, plr_diags *di
 
 /* The unit of gradients that no author gave is found before the voxels leave main memory. */
 static void find_gradient_units(plr_view *view) {
+    bool needed = false;
+    for (size_t i = 0; i < view->volumes.cast_count; i++)
+        needed = needed || plr_bind_needs(&view->volumes.casts[i].pass.slots, "gradientUnit");
     for (size_t i = 0; i < view->volumes.count; i++) {
         plr_volume_state *state = &view->volumes.volumes[i];
-        if (state->gradient_unit > 0 || !plr_bind_needs(&view->volumes.pass.slots, "gradientUnit"))
+        if (state->gradient_unit > 0 || !needed)
             continue;
         double strong = plr_image_gradient_percentile(&state->voxels->image, state->dimensions);
         state->gradient_unit = strong > 0 ? 1 / strong : 1;
@@ -46,7 +48,8 @@ static void upload(plr_view *view) {
     const plr_gl *gl = &view->engine->gl;
     plr_phase start = plr_clock();
     plr_pass_find(view, &view->background);
-    plr_pass_find(view, &view->volumes.pass);
+    for (size_t i = 0; i < view->volumes.cast_count; i++)
+        plr_pass_find(view, &view->volumes.casts[i].pass);
     for (size_t i = 0; i < view->surface_count; i++)
         plr_pass_find(view, &view->surfaces[i].pass);
     find_gradient_units(view);
@@ -129,8 +132,7 @@ void plr_view_destroy(plr_view **view) {
     *view = NULL;
 }
 
-/* ---- Drawing
- * -------------------------------------------------------------------------------------------- */
+/* ---- Drawing ---- */
 
 /* Near and far planes. With reversed depths the far plane is infinitely far and the near plane may
  * be as near as it likes: precision does not depend on them. Else, and in parallel projection, they
@@ -160,36 +162,29 @@ static int farther_first(const void *a, const void *b) {
     return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* Distance of the nearest volume's centre: translucent surfaces beyond it are drawn before. */
-static double volume_depth(const plr_view *view, const plr_frame *frame) {
-    double depth = INFINITY;
-    for (size_t i = 0; i < view->volumes.count; i++) {
-        plr_matrix to_eye = plr_matrix_multiply(&frame->view, &view->volumes.volumes[i].to_world);
-        depth = fmin(depth, -to_eye.m[14]);
-    }
-    return depth;
-}
-
 static void draw_opaque(plr_view *view, const plr_frame *frame) {
     for (size_t i = 0; i < view->surface_count; i++)
         if (!view->surfaces[i].blends)
             plr_surface_draw(view, &view->surfaces[i], frame);
 }
 
-/* Translucent surfaces from the farthest to the nearest, with the volumes among them. `target` is
- * the framebuffer to draw into; the volumes read the depths of `frame`, so they are drawn without
- * them where that texture belongs to the target (`without_depth`). */
+/* Translucent surfaces and volumes, from the farthest to the nearest. `target` is the framebuffer
+ * to draw into; the volumes read the depths of `frame`, so they are drawn without them where that
+ * texture belongs to the target (`without_depth`). */
 static void draw_translucent(plr_view *view, const plr_frame *frame, GLuint target,
                              GLuint without_depth) {
     const plr_gl *gl = &view->engine->gl;
     qsort(view->blending, view->blending_count, sizeof *view->blending, farther_first);
-    double middle = volume_depth(view, frame);
+    plr_volume_depths(view, frame);
     size_t next = 0;
-    while (next < view->blending_count && view->blending[next]->depth > middle)
-        plr_surface_draw(view, view->blending[next++], frame);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, without_depth);
-    plr_volume_pass_draw(view, frame);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+    for (size_t i = 0; i < view->volumes.cast_count; i++) {
+        const plr_cast *cast = &view->volumes.casts[i];
+        while (next < view->blending_count && view->blending[next]->depth > cast->depth)
+            plr_surface_draw(view, view->blending[next++], frame);
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, without_depth);
+        plr_cast_draw(view, cast, frame);
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+    }
     while (next < view->blending_count)
         plr_surface_draw(view, view->blending[next++], frame);
 }
@@ -342,8 +337,7 @@ bool plr_view_draw_here(plr_view *view, const double *projection, const double *
     return fine;
 }
 
-/* ---- What a view is made of
- * ------------------------------------------------------------------------------ */
+/* ---- What a view is made of ---- */
 
 size_t plr_view_program_count(const plr_view *view) {
     return view->composer.built.count;

@@ -21,10 +21,22 @@ typedef struct plr_pass {
     plr_slots slots;
 } plr_pass;
 
-typedef struct plr_volume_pass {
+/* Volumes that are cast together, mixed where they overlap. */
+typedef struct plr_cast {
     plr_pass pass;
-    plr_volume_state *volumes;
+    size_t *members; /* indices of volumes */
     size_t count;
+    double depth; /* of the nearest centre, in this frame */
+} plr_cast;
+
+/* All volumes: most in one cast; one whose author decides how it accumulates is a layer of its own.
+ */
+typedef struct plr_volume_pass {
+    plr_volume_state *volumes;
+    const plr_leaf **leaves; /* parallel to volumes */
+    size_t count;
+    plr_cast *casts; /* as many as there are volumes at most */
+    size_t cast_count;
     plr_texture *default_ramp;
 } plr_volume_pass;
 
@@ -60,8 +72,7 @@ struct plr_view {
     plr_view_stats stats;
 };
 
-/* ---- Making passes ready
- * -------------------------------------------------------------------------- */
+/* ---- Making passes ready ---- */
 
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
 void plr_background_prepare(plr_view *view);
@@ -73,12 +84,14 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
                      size_t volume);
 void plr_pass_light_authors(plr_view *view, plr_recipe *recipe);
 
-/* ---- Drawing
- * ---------------------------------------------------------------------------------------- */
+/* ---- Drawing ---- */
 
 /* Clears colour and depth, then draws the background. */
 void plr_background_draw(plr_view *view, const plr_frame *frame);
-void plr_volume_pass_draw(plr_view *view, const plr_frame *frame);
+/* Draws one cast; depths say in which order (plr_volume_depths). */
+void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
+/* Finds the depths of the casts in this frame and sorts them, the farthest first. */
+void plr_volume_depths(plr_view *view, const plr_frame *frame);
 /* Samples along all rays of this frame when none ends early. */
 double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame);
 void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame);

@@ -111,7 +111,7 @@ bool plr_volume_check_size(const uint64_t size[3], uint64_t components, plr_voxe
     return true;
 }
 
-/* ---- ranges --------------------------------------------------------------------------------- */
+/* ---- ranges ---- */
 
 /* Least and greatest stored value; false if none is finite. */
 #define INTEGER_RANGE(name, ctype)                                                                 \

@@ -63,7 +63,7 @@ void plr_swap_bytes(void *data, size_t count, size_t size) {
         swap64(data, count);
 }
 
-/* ---- gzip ----------------------------------------------------------------------------------- */
+/* ---- gzip ---- */
 
 bool plr_is_gzip(const char *data, size_t length) {
     return length >= 18 && memcmp(data, "\x1f\x8b\x08", 3) == 0;
@@ -187,7 +187,7 @@ char *plr_gunzip(const char *data, size_t length, size_t limit, size_t *out_leng
     return out;
 }
 
-/* ---- text ----------------------------------------------------------------------------------- */
+/* ---- text ---- */
 
 static bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
@@ -292,7 +292,7 @@ size_t plr_read_numbers(const char *text, size_t length, plr_voxel_type type, vo
     return done;
 }
 
-/* ---- order of axes -------------------------------------------------------------------------- */
+/* ---- order of axes ---- */
 
 /* One row along the fastest axis; a size that is known makes a copy one instruction. */
 static inline void gather_row(char *to, const char *from, size_t size, size_t step,

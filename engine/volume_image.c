@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- to samples ------------------------------------------------------------------------------ */
+/* ---- to samples ---- */
 
 /* sample = clamp((stored - low) * scale); what is not finite is 0 */
 #define TO_FLOAT(name, ctype)                                                                      \
@@ -76,7 +76,7 @@ bool plr_volume_to_image(const plr_volume *volume, const double range[2], plr_im
     return true;
 }
 
-/* ---- gradients ------------------------------------------------------------------------------- */
+/* ---- gradients ---- */
 
 /* The scalar of gradients: L, or the mean of R, G and B. */
 static double scalar(const plr_image *image, size_t voxel) {

@@ -47,7 +47,7 @@ size_t plr_volume_count(const plr_volume *volume);
 bool plr_volume_check_size(const uint64_t size[3], uint64_t components, plr_voxel_type type,
                            plr_place place, plr_diags *diags);
 
-/* ---- Encodings of voxel data ---------------------------------------------------------------- */
+/* ---- Encodings of voxel data ---- */
 
 size_t plr_voxel_size(plr_voxel_type type); /* bytes */
 /* "unsigned 16-bit integers" */

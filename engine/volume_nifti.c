@@ -130,8 +130,7 @@ static double read_element(const nifti *header, size_t offset, size_t index) {
     return read_number(header, offset + index * header->at->float_width);
 }
 
-/* ---- sizes, types, place of the voxels
- * ----------------------------------------------------------- */
+/* ---- sizes, types, place of the voxels ---- */
 
 static bool read_sizes(nifti *header) {
     const layout *at = header->at;
@@ -207,8 +206,7 @@ static bool read_offset(nifti *header) {
     return true;
 }
 
-/* ---- voxels
- * --------------------------------------------------------------------------------------- */
+/* ---- voxels ---- */
 
 static bool copy_voxels(const nifti *header, const char *data, size_t length, const char *name,
                         plr_volume *volume) {
@@ -285,8 +283,7 @@ static bool interleave(const nifti *header, plr_volume *volume) {
     return true;
 }
 
-/* ---- geometry
- * -------------------------------------------------------------------------------------- */
+/* ---- geometry ---- */
 
 /* Method 3 of nifti1.h: the rows of the affine matrix, as they are. */
 static void set_affine(const nifti *header, plr_volume *volume) {
@@ -349,8 +346,7 @@ static void set_geometry(const nifti *header, plr_volume *volume) {
     volume->space = PLR_SPACE_RAS;
 }
 
-/* ---- values
- * ------------------------------------------------------------------------------------------ */
+/* ---- values ---- */
 
 static void set_values(const nifti *header, plr_volume *volume) {
     double slope = read_number(header, header->at->slope);

@@ -194,8 +194,7 @@ static bool from_slices(plr_scene *scene, const plr_node *texture, plr_volume *v
     return ok;
 }
 
-/* ---- ImageTexture3D, PixelTexture3D
- * -------------------------------------------------------------- */
+/* ---- ImageTexture3D, PixelTexture3D ---- */
 
 static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_volume *volume,
                         plr_diags *diags) {

@@ -14,7 +14,7 @@ plr_place plr_nrrd_place(const nrrd *header, const char *at) {
 
 #define FAIL(header, at, ...) NRRD_FAIL(header, plr_nrrd_place(header, at), __VA_ARGS__)
 
-/* ---- pieces of a line ------------------------------------------------------------------------ */
+/* ---- pieces of a line ---- */
 
 static bool is_blank(char c) {
     return c == ' ' || c == '\t';
@@ -137,7 +137,7 @@ static void start_axes(const nrrd *header, nrrd_per_axis *given, nrrd_text text)
     given->place = plr_nrrd_place(header, text.at);
 }
 
-/* ---- tables ---------------------------------------------------------------------------------- */
+/* ---- tables ---- */
 
 enum {
     BLOCK = -1
@@ -286,7 +286,7 @@ static const name_row units[] = {
     {"a", -10},
 };
 
-/* ---- fields ---------------------------------------------------------------------------------- */
+/* ---- fields ---- */
 
 static bool read_type(nrrd *header, nrrd_text text) {
     const name_row *row = FIND_NAME(types, text, true);
@@ -585,7 +585,7 @@ static const struct {
     {"measurementframe", read_nothing},
 };
 
-/* ---- lines ----------------------------------------------------------------------------------- */
+/* ---- lines ---- */
 
 static bool read_field(nrrd *header, nrrd_text line) {
     const char *colon = memchr(line.at, ':', (size_t)(line.end - line.at));

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- axes ------------------------------------------------------------------------------------ */
+/* ---- axes ---- */
 
 /* Which axes of the file become x, y, z and components; -1: none. */
 typedef struct axes {

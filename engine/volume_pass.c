@@ -7,8 +7,7 @@
 #include "engine/dialect.h"
 #include "engine/volume.h"
 
-/* ---- Data
- * -------------------------------------------------------------------------------------------- */
+/* ---- Data ---- */
 
 static const plr_node *voxels_node(const plr_node *volume) {
     return plr_node_child(volume, "voxels");
@@ -57,8 +56,7 @@ static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *
     return state->voxel > 0;
 }
 
-/* ---- Styles
- * ------------------------------------------------------------------------------------------ */
+/* ---- Styles ---- */
 
 typedef struct style_list {
     plr_view *view;
@@ -116,8 +114,7 @@ static bool any_enabled(const plr_node *node) {
     return !styles || !styles->count;
 }
 
-/* ---- The program
- * ------------------------------------------------------------------------------------- */
+/* ---- The program ---- */
 
 static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const plr_scope *scope,
                        size_t *attached, plr_diags *diags) {
@@ -135,93 +132,226 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
 }
 
 /* Keeps the volumes that have data and an enabled style. */
-static const plr_leaf **usable(plr_view *view, plr_diags *diags) {
+static void find_usable(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
     size_t leaf_count = view->flat.volumes.count;
     pass->volumes = PLR_NEW_ARRAY(&view->arena, leaf_count + 1, plr_volume_state);
-    const plr_leaf **leaves = PLR_NEW_ARRAY(&view->arena, leaf_count + 1, const plr_leaf *);
+    pass->leaves = PLR_NEW_ARRAY(&view->arena, leaf_count + 1, const plr_leaf *);
     for (size_t i = 0; i < leaf_count; i++) {
         const plr_leaf *leaf = &view->flat.volumes.items[i];
         if (!any_enabled(plr_node_child(leaf->node, "renderStyle")) ||
             !load_volume(view, leaf, &pass->volumes[pass->count], diags))
             continue;
         pass->volumes[pass->count].index = pass->count;
-        leaves[pass->count++] = leaf;
+        pass->leaves[pass->count++] = leaf;
     }
-    return leaves;
 }
 
-/* Whether an effect of an author's decides how the ray accumulates: then no ray may end early. */
-static bool author_composites(const plr_pass *pass) {
-    for (size_t i = 0; i < plr_program_plug_count(pass->program); i++) {
-        const plr_plug_info *plug = plr_program_plug(pass->program, i);
-        if (strcmp(plug->name, "volume_composite") != 0 &&
-            strcmp(plug->name, "volume_ray_end") != 0)
-            continue;
-        for (size_t call = 0; call < plug->call_count; call++) {
-            plr_place place;
-            size_t effect = plr_program_plug_call(pass->program, i, call, &place);
-            if (effect != PLR_NO_EFFECT && !pass->recipe.effects.items[effect].builtin)
+static bool scope_has(const plr_scope *scope, const plr_node *effect) {
+    for (; scope; scope = scope->outer)
+        for (size_t i = 0; i < scope->effects.count; i++)
+            if (scope->effects.items[i] == effect)
                 return true;
+    return false;
+}
+
+/* The groups' effects: what is around all volumes of the cast is one effect on the whole, what is
+ * around some is one on each of them. */
+static void add_group_effects(plr_view *view, plr_cast *cast, const size_t *attached) {
+    plr_recipe *recipe = &cast->pass.recipe;
+    const plr_leaf *const *leaves = view->volumes.leaves;
+    for (size_t i = 0; i < cast->count; i++)
+        for (const plr_scope *scope = leaves[cast->members[i]]->scope; scope; scope = scope->outer)
+            for (size_t e = 0; e < scope->effects.count; e++) {
+                plr_node *effect = scope->effects.items[e];
+                bool whole = true;
+                for (size_t other = 0; other < cast->count; other++)
+                    whole = whole && scope_has(leaves[cast->members[other]]->scope, effect);
+                if (!whole)
+                    plr_recipe_author(&view->kitchen, recipe, effect, attached[i],
+                                      cast->members[i]);
+                else if (i == 0)
+                    plr_recipe_author(&view->kitchen, recipe, effect,
+                                      cast->count == 1 ? attached[0] : 0,
+                                      cast->count == 1 ? cast->members[0] : PLR_NO_EFFECT);
+            }
+}
+
+static void build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags) {
+    plr_volume_pass *pass = &view->volumes;
+    plr_recipe *recipe = &cast->pass.recipe;
+    plr_kitchen *k = &view->kitchen;
+    double cut[2];
+    plr_viewpoint_cut(view->viewpoint, cut);
+    *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster")};
+    plr_recipe_define(k, recipe, "VOLUME_COUNT", (int)cast->count);
+    plr_recipe_define(k, recipe, "HAS_OPAQUE",
+                      view->flat.shapes.count > 0 || view->desc.host_depths);
+    plr_recipe_define(k, recipe, "EARLY_END", early_end);
+    plr_recipe_define(k, recipe, "HAS_CUT", cut[0] > 0 || isfinite(cut[1]));
+    plr_recipe_define(k, recipe, "CASTLE_GLSL_VERSION_UPGRADE", 1);
+    size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
+    for (size_t i = 0; i < cast->count; i++)
+        add_volume(view, recipe, cast->members[i], pass->leaves[cast->members[i]]->scope,
+                   &attached[i], diags);
+    plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
+                       (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
+    plr_pass_light_authors(view, recipe);
+    for (size_t i = 0; i < cast->count; i++)
+        plr_recipe_author_list(k, recipe, pass->leaves[cast->members[i]]->node, attached[i],
+                               cast->members[i]);
+    add_group_effects(view, cast, attached);
+}
+
+/* What the effects of authors do to the ray as a whole, found by linking alone. */
+typedef struct ray_use {
+    bool accumulates; /* some author decides how: then no ray may end early */
+    bool *layers;     /* by volume: an effect of its own composites */
+} ray_use;
+
+static void note_calls(const plr_program *program, size_t plug, const plr_recipe *recipe,
+                       ray_use *use) {
+    const plr_plug_info *info = plr_program_plug(program, plug);
+    bool composite = strcmp(info->name, "volume_composite") == 0;
+    if (!composite && strcmp(info->name, "volume_ray_end") != 0)
+        return;
+    for (size_t call = 0; call < info->call_count; call++) {
+        plr_place place;
+        size_t effect = plr_program_plug_call(program, plug, call, &place);
+        if (effect == PLR_NO_EFFECT || recipe->effects.items[effect].builtin)
+            continue;
+        use->accumulates = true;
+        size_t volume = recipe->bindings.items[effect].volume;
+        if (composite && volume != PLR_NO_EFFECT)
+            use->layers[volume] = true;
+    }
+}
+
+static ray_use find_ray_use(plr_view *view, plr_cast *cast) {
+    ray_use use = {.layers = PLR_NEW_ARRAY(&view->arena, view->volumes.count, bool)};
+    plr_program *program = plr_link_recipe(&view->composer, &cast->pass.recipe, false, NULL);
+    for (size_t i = 0; program && i < plr_program_plug_count(program); i++)
+        note_calls(program, i, &cast->pass.recipe, &use);
+    plr_program_destroy(&program);
+    return use;
+}
+
+static void world_bounds(const plr_volume_state *state, double bounds[2][3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        bounds[0][axis] = INFINITY;
+        bounds[1][axis] = -INFINITY;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        double point[3];
+        for (int axis = 0; axis < 3; axis++)
+            point[axis] = state->dimensions[axis] * ((corner >> axis & 1) - 0.5);
+        plr_matrix_point(&state->to_world, point, point);
+        for (int axis = 0; axis < 3; axis++) {
+            bounds[0][axis] = fmin(bounds[0][axis], point[axis]);
+            bounds[1][axis] = fmax(bounds[1][axis], point[axis]);
         }
+    }
+}
+
+static bool overlaps_another(const plr_volume_pass *pass, size_t index) {
+    double own[2][3], other[2][3];
+    world_bounds(&pass->volumes[index], own);
+    for (size_t i = 0; i < pass->count; i++) {
+        bool apart = i == index;
+        world_bounds(&pass->volumes[i], other);
+        for (int axis = 0; axis < 3; axis++)
+            apart = apart || own[1][axis] <= other[0][axis] || other[1][axis] <= own[0][axis];
+        if (!apart)
+            return true;
     }
     return false;
 }
 
-static void build_recipe(plr_view *view, const plr_leaf **leaves, bool early_end,
-                         plr_diags *diags) {
-    plr_volume_pass *pass = &view->volumes;
-    plr_recipe *recipe = &pass->pass.recipe;
-    plr_kitchen *k = &view->kitchen;
-    *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster")};
-    plr_recipe_define(k, recipe, "VOLUME_COUNT", (int)pass->count);
-    plr_recipe_define(k, recipe, "HAS_OPAQUE",
-                      view->flat.shapes.count > 0 || view->desc.host_depths);
-    plr_recipe_define(k, recipe, "EARLY_END", early_end);
-    double cut[2];
-    plr_viewpoint_cut(view->viewpoint, cut);
-    plr_recipe_define(k, recipe, "HAS_CUT", cut[0] > 0 || isfinite(cut[1]));
-    plr_recipe_define(k, recipe, "CASTLE_GLSL_VERSION_UPGRADE", 1);
-    size_t *attached = PLR_NEW_ARRAY(&view->arena, pass->count, size_t);
-    for (size_t i = 0; i < pass->count; i++)
-        add_volume(view, recipe, i, leaves[i]->scope, &attached[i], diags);
-    plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
-                       (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
-    plr_pass_light_authors(view, recipe);
-    for (size_t i = 0; i < pass->count; i++)
-        plr_recipe_author_list(k, recipe, leaves[i]->node, attached[i], i);
-    for (size_t i = 0; i < pass->count; i++)
-        plr_recipe_groups(k, recipe, leaves[i]->scope, attached[i], i);
+static plr_cast *add_cast(plr_view *view) {
+    plr_cast *cast = &view->volumes.casts[view->volumes.cast_count++];
+    cast->members = PLR_NEW_ARRAY(&view->arena, view->volumes.count, size_t);
+    return cast;
 }
 
-void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
+/* Takes the volumes that are layers out of the first cast. */
+static void split_layers(plr_view *view, const bool *layers, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
-    const plr_leaf **leaves = usable(view, diags);
-    if (!pass->count)
-        return;
-    for (int early_end = 1; early_end >= 0; early_end--) {
-        build_recipe(view, leaves, early_end, diags);
-        pass->pass.built =
-            plr_compose_program(&view->composer, &pass->pass.recipe, "volume", &pass->pass.program);
-        if (!pass->pass.built || !author_composites(&pass->pass))
-            break;
+    plr_cast *together = &pass->casts[0];
+    size_t kept = 0;
+    for (size_t i = 0; i < pass->count; i++) {
+        if (!layers[i]) {
+            together->members[kept++] = i;
+            continue;
+        }
+        plr_cast *own = add_cast(view);
+        own->members[own->count++] = i;
+        if (overlaps_another(pass, i))
+            plr_diags_add(diags, PLR_CODE_LAYERED, plr_node_place(pass->volumes[i].node),
+                          "an effect of this volume composites: it is a layer of its own, not "
+                          "mixed with the volumes that it overlaps");
     }
+    together->count = kept;
+    if (!kept)
+        *together = pass->casts[--pass->cast_count];
+}
+
+static void make_default_ramp(plr_view *view) {
     plr_image ramp = {2, 1, 1, 4, PLR_FLOAT32, calloc(8, sizeof(float))};
     if (!ramp.samples)
         longjmp(*view->arena.out_of_memory, 1);
     bool reversed = view->desc.dialect == PLR_DIALECT_2005;
-    for (int i = 0; i < 8;
-         i++) /* the default ramp: 0 is black and transparent, 1 white and opaque */
+    for (int i = 0; i < 8; i++) /* 0 is black and transparent, 1 white and opaque */
         ((float *)ramp.samples)[i] = (i % 4 == 3 && reversed) ? (float)(i < 4) : (float)(i >= 4);
-    pass->default_ramp = plr_textures_make(&view->textures, &ramp, 2, false);
+    view->volumes.default_ramp = plr_textures_make(&view->textures, &ramp, 2, false);
 }
 
-/* ---- Drawing
- * ------------------------------------------------------------------------------------------ */
+void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
+    plr_volume_pass *pass = &view->volumes;
+    find_usable(view, diags);
+    if (!pass->count)
+        return;
+    pass->casts = PLR_NEW_ARRAY(&view->arena, pass->count + 1, plr_cast);
+    plr_cast *together = add_cast(view);
+    for (size_t i = 0; i < pass->count; i++)
+        together->members[together->count++] = i;
+    build_recipe(view, together, true, NULL);
+    ray_use use = find_ray_use(view, together);
+    if (pass->count > 1)
+        split_layers(view, use.layers, diags);
+    for (size_t i = 0; i < pass->cast_count; i++) {
+        plr_cast *cast = &pass->casts[i];
+        build_recipe(view, cast, !use.accumulates, diags);
+        cast->pass.built =
+            plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
+    }
+    make_default_ramp(view);
+}
 
-void plr_volume_pass_draw(plr_view *view, const plr_frame *frame) {
+/* ---- Drawing ---- */
+
+static int farther_first(const void *a, const void *b) {
+    double x = ((const plr_cast *)a)->depth, y = ((const plr_cast *)b)->depth;
+    return x < y ? 1 : x > y ? -1 : 0;
+}
+
+void plr_volume_depths(plr_view *view, const plr_frame *frame) {
+    plr_volume_pass *pass = &view->volumes;
+    for (size_t i = 0; i < pass->cast_count; i++) {
+        plr_cast *cast = &pass->casts[i];
+        cast->depth = INFINITY;
+        for (size_t k = 0; k < cast->count; k++) {
+            plr_matrix to_eye =
+                plr_matrix_multiply(&frame->view, &pass->volumes[cast->members[k]].to_world);
+            cast->depth = fmin(cast->depth, -to_eye.m[14]);
+        }
+    }
+    if (pass->cast_count > 1)
+        qsort(pass->casts, pass->cast_count, sizeof *pass->casts, farther_first);
+}
+
+void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
     const plr_volume_pass *pass = &view->volumes;
-    if (!pass->pass.built)
+    if (!cast->pass.built)
         return;
     const plr_gl *gl = &view->engine->gl;
     gl->Disable(GL_DEPTH_TEST);
@@ -229,13 +359,13 @@ void plr_volume_pass_draw(plr_view *view, const plr_frame *frame) {
     gl->Disable(GL_CULL_FACE);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl->UseProgram(pass->pass.built->name);
+    gl->UseProgram(cast->pass.built->name);
     plr_values values = {.frame = frame,
-                         .to_world = pass->volumes[0].to_world,
+                         .to_world = pass->volumes[cast->members[0]].to_world,
                          .volumes = pass->volumes,
                          .volume_count = pass->count,
                          .default_ramp = pass->default_ramp};
-    plr_bind_set(gl, &view->textures, &pass->pass.slots, &values);
+    plr_bind_set(gl, &view->textures, &cast->pass.slots, &values);
     gl->BindVertexArray(view->empty_vertex_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -262,7 +392,7 @@ double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame) {
     int width = (int)frame->viewport[2], height = (int)frame->viewport[3];
     plr_matrix unproject;
     plr_matrix_invert(&frame->projection, &unproject);
-    for (size_t v = 0; v < view->volumes.count && view->volumes.pass.built; v++) {
+    for (size_t v = 0; v < view->volumes.count; v++) {
         const plr_volume_state *state = &view->volumes.volumes[v];
         plr_matrix to_eye = plr_matrix_multiply(&frame->view, &state->to_world), to_local;
         plr_matrix_invert(&to_eye, &to_local);
