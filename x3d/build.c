@@ -39,7 +39,7 @@ void x3d_leave(x3d_build *build) {
     build->depth--;
 }
 
-/* ---- Nodes ---------------------------------------------------------------------------------- */
+/* ---- Nodes ---- */
 
 static void report_unknown_node(x3d_build *build, x3d_label type) {
     plr_scene *scene = build->scene;
@@ -165,6 +165,17 @@ plr_node *x3d_end(x3d_build *build, x3d_open *open) {
     return node;
 }
 
+/* A Script may know the nodes around it, and itself: nothing walks through its fields. */
+static bool through_script(const plr_node *node, const x3d_open *outer) {
+    for (; outer && node->type; outer = outer->outer) {
+        if (outer->node && outer->node->type && plr_node_is(outer->node, "X3DScriptNode"))
+            return true;
+        if (outer->node == node)
+            return false;
+    }
+    return false;
+}
+
 plr_node *x3d_use(x3d_build *build, x3d_label name, const x3d_open *outer) {
     plr_scene *scene = build->scene;
     x3d_def *def = x3d_names_find(&build->scope->defs, name.text, name.length);
@@ -178,10 +189,7 @@ plr_node *x3d_use(x3d_build *build, x3d_label name, const x3d_open *outer) {
         x3d_suggest(scene, name.place, &nearest);
         return NULL;
     }
-    /* A Script may know itself: nothing walks through its fields. */
-    bool self = outer && outer->node == def->node && def->node->type &&
-                plr_node_is(def->node, "X3DScriptNode");
-    if (def->open && !self) {
+    if (def->open && !through_script(def->node, outer)) {
         x3d_report(scene, PLR_CODE_RECURSION, name.place, "USE of '%.*s' inside itself",
                    length_of(&name), name.text);
         return NULL;
@@ -189,8 +197,7 @@ plr_node *x3d_use(x3d_build *build, x3d_label name, const x3d_open *outer) {
     return def->node;
 }
 
-/* ---- Fields -----------------------------------------------------------------------------------
- */
+/* ---- Fields ---- */
 
 static const char *type_name(const plr_node *node) {
     return node->type ? node->type->info->name : node->written ? node->written : "prototype";
@@ -350,6 +357,8 @@ size_t x3d_container(x3d_build *build, plr_node *parent, const plr_node *child,
     size_t index = SIZE_MAX;
     if (plr_node_is(child, "Effect"))
         index = find_open_field(build, parent, "effects", child);
+    if (parent->type && plr_node_is(parent, "MetadataSet")) /* as X3D 4 has it */
+        index = find_open_field(build, parent, "value", child);
     if (index == SIZE_MAX)
         index = find_open_field(build, parent, child->type->info->container_field, child);
     size_t others = 0;
@@ -391,8 +400,7 @@ size_t x3d_declare(x3d_build *build, plr_node *node, plr_type type, plr_access a
     return node->field_count - 1;
 }
 
-/* ---- Statements ---------------------------------------------------------------------------------
- */
+/* ---- Statements ---- */
 
 bool x3d_add_unit(x3d_build *build, x3d_label category, double factor) {
     if (!(factor > 0) || factor > 1e30 || factor < 1e-30)

@@ -49,8 +49,7 @@ static bool expect_label(classic *c, x3d_label *label, const char *what) {
     return true;
 }
 
-/* ---- Skipping
- * ------------------------------------------------------------------------------------- */
+/* ---- Skipping ---- */
 
 static void skip_token(classic *c) {
     int next = x3d_lexer_next(&c->lexer);
@@ -169,8 +168,7 @@ static void skip_rest_of_value(classic *c, const plr_node *node, size_t start) {
     }
 }
 
-/* ---- Fields
- * ------------------------------------------------------------------------------------------ */
+/* ---- Fields ---- */
 
 static void read_node_list(classic *c, plr_node *node, size_t index, x3d_open *open) {
     size_t bracket = c->lexer.at;
@@ -317,9 +315,7 @@ static void read_field(classic *c, x3d_open *open, const x3d_word *word) {
         read_value(c, node, index, open);
 }
 
-/* ---- Nodes
- * -----------------------------------------------------------------------------------------------
- */
+/* ---- Nodes ---- */
 
 static bool read_statement(classic *c, const x3d_word *word);
 
@@ -390,8 +386,7 @@ static plr_node *read_node_or_use(classic *c, x3d_open *outer) {
     return read_node(c, def ? &name : NULL, outer);
 }
 
-/* ---- Prototypes
- * --------------------------------------------------------------------------------------------- */
+/* ---- Prototypes ---- */
 
 static void read_interface(classic *c, x3d_proto *proto, unsigned flags) {
     if (!next_is_one_of(c, "[")) {
@@ -455,9 +450,7 @@ static void read_externproto(classic *c) {
         skip_value(c);
 }
 
-/* ---- Statements
- * ------------------------------------------------------------------------------------------------
- */
+/* ---- Statements ---- */
 
 /* Node names and field names of statements end before a dot. */
 static bool read_route_end(classic *c, x3d_label *node, x3d_label *field) {

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- Memory --------------------------------------------------------------------------------- */
+/* ---- Memory ---- */
 
 typedef struct block {
     plr_allocator allocator;
@@ -66,8 +66,7 @@ static x3d_failure fail(plr_code code, const char *text) {
     return (x3d_failure){code, text};
 }
 
-/* ---- Where a url leads ------------------------------------------------------------------------
- */
+/* ---- Where a url leads ---- */
 
 static const char *real_path(plr_scene *scene, const char *path) {
     char *real = realpath(path, NULL);
@@ -231,8 +230,7 @@ x3d_failure x3d_locate(plr_scene *scene, const char *folder, const char *referre
     return locate_path(scene, folder, text, located);
 }
 
-/* ---- Reading ------------------------------------------------------------------------------------
- */
+/* ---- Reading ---- */
 
 static size_t max_bytes(const plr_scene *scene) {
     return scene->rules.max_bytes ? scene->rules.max_bytes : (size_t)1 << 30;

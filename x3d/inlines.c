@@ -72,8 +72,7 @@ static bool may_load(x3d_build *build, plr_place place) {
     return false;
 }
 
-/* ---- Inline -----------------------------------------------------------------------------------
- */
+/* ---- Inline ---- */
 
 static plr_field *children_of(plr_scene *scene, plr_node *node) {
     size_t index = x3d_field_index(scene, node, "children", 8, node->place);
@@ -157,8 +156,7 @@ void x3d_load_inline(x3d_build *build, plr_node *node) {
                    shown(strlen(located.name)), located.name, failure.text);
 }
 
-/* ---- EXTERNPROTO --------------------------------------------------------------------------------
- */
+/* ---- EXTERNPROTO ---- */
 
 /* The prototypes of another file; its nodes are read as the mould of nothing and left alone. */
 static x3d_scope *read_library(x3d_build *build, x3d_file *file, const char *key) {

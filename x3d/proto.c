@@ -60,8 +60,7 @@ x3d_proto *x3d_externproto_begin(x3d_build *build, x3d_label name) {
     return proto;
 }
 
-/* ---- IS ---------------------------------------------------------------------------------------
- */
+/* ---- IS ---- */
 
 static size_t find_with_affixes(x3d_build *build, const plr_node *node, x3d_label name) {
     size_t index = x3d_field_index(build->scene, node, name.text, name.length, name.place);
@@ -152,8 +151,7 @@ void x3d_add_is(x3d_build *build, plr_node *node, x3d_label field, x3d_label int
     push_is(scene, proto, (x3d_is){node, (uint32_t)to, (uint32_t)from, interface.place});
 }
 
-/* ---- Instances
- * ------------------------------------------------------------------------------------ */
+/* ---- Instances ---- */
 
 typedef struct copier {
     x3d_build *build;

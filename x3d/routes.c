@@ -23,8 +23,7 @@ static void unknown_def(x3d_build *build, x3d_label name, const char *statement)
     x3d_suggest(build->scene, name.place, &nearest);
 }
 
-/* ---- IMPORT and EXPORT
- * ---------------------------------------------------------------------------- */
+/* ---- IMPORT and EXPORT ---- */
 
 static bool import_now(x3d_build *build, const x3d_pending_import *import) {
     x3d_def *inlined = find_def(build, import->inlined);
@@ -78,8 +77,7 @@ static void end_export(x3d_build *build, const x3d_pending_import *export) {
                       export->local.length) = def->node;
 }
 
-/* ---- ROUTE
- * ------------------------------------------------------------------------------------------ */
+/* ---- ROUTE ---- */
 
 typedef struct route_end {
     plr_node *node;

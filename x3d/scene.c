@@ -75,7 +75,7 @@ void x3d_suggest(plr_scene *scene, plr_place place, const x3d_nearest *nearest) 
         plr_diags_note(scene->diags, place, "did you mean '%s'?", nearest->best);
 }
 
-/* ---- Memory --------------------------------------------------------------------------------- */
+/* ---- Memory ---- */
 
 static void *counting_reallocate(void *user, void *pointer, size_t size) {
     plr_scene *scene = user;
@@ -96,8 +96,7 @@ plr_allocator x3d_counting_allocator(plr_scene *scene) {
     return (plr_allocator){counting_reallocate, counting_release, scene};
 }
 
-/* ---- Types ------------------------------------------------------------------------------------
- */
+/* ---- Types ---- */
 
 static void add_alias(plr_scene *scene, const x3d_alias *alias) {
     x3d_type *type = x3d_names_find(&scene->types, alias->name, strlen(alias->name));
@@ -174,8 +173,7 @@ static void make_defaults(plr_scene *scene, x3d_type *type) {
     type->defaults = fields;
 }
 
-/* ---- Nodes and fields --------------------------------------------------------------------------
- */
+/* ---- Nodes and fields ---- */
 
 bool x3d_node_count_up(plr_scene *scene, plr_place place) {
     if (scene->node_count < scene->max_nodes) {

@@ -34,8 +34,7 @@ static bool out_of_memory(entry *e, plr_scene *scene, plr_place place) {
     return false;
 }
 
-/* ---- data: urls ---------------------------------------------------------------------------------
- */
+/* ---- data: urls ---- */
 
 static bool is_data(const plr_string *url, size_t *start) {
     size_t i = 0;
@@ -86,8 +85,7 @@ static size_t decode_base64(const char *text, size_t length, char *out) {
     return used;
 }
 
-/* ---- Loading ------------------------------------------------------------------------------------
- */
+/* ---- Loading ---- */
 
 static x3d_failure load_data(plr_scene *scene, const plr_string *url, size_t start,
                              plr_bytes *bytes) {
@@ -235,8 +233,7 @@ void plr_bytes_free(plr_bytes *bytes) {
     *bytes = (plr_bytes){0};
 }
 
-/* ---- Source code
- * ---------------------------------------------------------------------------------- */
+/* ---- Source code ---- */
 
 /* Source text never looks like the name of a file. */
 static bool is_inline_code(const plr_string *url) {

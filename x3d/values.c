@@ -280,6 +280,10 @@ static bool read_multiple(reader *r) {
     x3d_lexer *lexer = r->lexer;
     if (type == PLR_MFSTRING && r->desc->xml && lexer->at < lexer->length &&
         x3d_lexer_next(lexer) != '"' && x3d_lexer_next(lexer) >= 0) {
+        if (x3d_lexer_next(lexer) == '\'')
+            x3d_warn(r->scene, PLR_CODE_BAD_VALUE, x3d_lexer_place(lexer),
+                     "%s.%s: the strings of a list stand in double quotes", r->desc->node,
+                     r->desc->field);
         read_whole_text(r);
         return true;
     }

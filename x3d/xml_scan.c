@@ -157,8 +157,7 @@ bool x3d_xml_next_attribute(const x3d_xml_scan *scan, const x3d_xml_token *token
     return true;
 }
 
-/* ---- Decoding
- * ------------------------------------------------------------------------------------ */
+/* ---- Decoding ---- */
 
 typedef struct span_list {
     x3d_span *items;

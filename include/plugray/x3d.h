@@ -12,8 +12,7 @@
 extern "C" {
 #endif
 
-/* ---- Files ------------------------------------------------------------------------------------
- */
+/* ---- Files ---- */
 
 /* What a scene may read. Zero value: files inside the folder of the scene (symbolic links resolved)
  * and below, nothing else, never the network. */
@@ -37,8 +36,7 @@ typedef struct plr_bytes {
 typedef struct plr_scene plr_scene;
 typedef struct plr_node plr_node;
 
-/* ---- Values -------------------------------------------------------------------------------------
- */
+/* ---- Values ---- */
 
 /* All field types of ISO/IEC 19775-1 clause 5. PLR_TYPE(identifier, name, kind, components) */
 #define PLR_TYPES(PLR_TYPE)                                                                        \
@@ -149,8 +147,7 @@ typedef struct plr_field {
     } value;
 } plr_field;
 
-/* ---- Scenes
- * --------------------------------------------------------------------------------------- */
+/* ---- Scenes ---- */
 
 typedef struct plr_read_desc {
     plr_file_rules rules;
@@ -222,8 +219,7 @@ PLR_API void plr_bytes_free(plr_bytes *bytes);
 PLR_API bool plr_scene_code(plr_scene *scene, const plr_node *node, const char *field,
                             plr_string *code, plr_diags *diags);
 
-/* ---- Nodes
- * ------------------------------------------------------------------------------------------ */
+/* ---- Nodes ---- */
 
 /* Node type as the tables name it ("Transform"); aliases of old dialects give the final name. An
  * instance of a prototype is the first node of its body, with the place and the DEF name of the
@@ -269,8 +265,7 @@ PLR_API bool plr_node_set_text(plr_scene *scene, plr_node *node, const char *fie
 PLR_API bool plr_node_set(plr_scene *scene, plr_node *node, const char *field, const void *values,
                           size_t count);
 
-/* ---- The table of nodes
- * ----------------------------------------------------------------------------- */
+/* ---- The table of nodes ---- */
 
 typedef struct plr_field_info {
     const char *name;

@@ -137,6 +137,11 @@ static void test_malformed_xml(void) {
     check_only_faults("wrong end tag", "<X3D>\n<Scene>\n</Group></Scene></X3D>", "3:9 error xml\n");
     check_only_faults("no scene at all", "<html><body/></html>", "1:1 error syntax\n");
     check_only_faults("unknown entity", XML("<WorldInfo title='a &foo; b'/>"), "1:47 error xml\n");
+    check_only_faults("strings in single quotes", XML("<NavigationInfo type=\"'FLY','ANY'\"/>"),
+                      "1:49 warning bad-value\n");
+    check_only_faults("parts of a document where they do not belong",
+                      XML("<Scene/><Group><X3D/></Group><head/>"),
+                      "1:27 error syntax\n1:42 error syntax\n1:56 error syntax\n");
     check_only_faults("no namespace for a prefix",
                       "<X3D xsd:noNamespaceSchemaLocation='x'><Scene/></X3D>", "");
     check_only_faults("text in a node", XML("<Group>hello</Group>"), "1:34 warning syntax\n");
@@ -183,6 +188,16 @@ static void test_loops(void) {
                       "1:65 error recursion\n");
     check_only_faults("a Script may know itself",
                       CLASSIC("DEF S Script { initializeOnly SFNode self USE S }"), "");
+    check_only_faults("a Script may know what is around it",
+                      XML("<Transform DEF='T'><Script><field name='f' type='SFNode' "
+                          "accessType='inputOutput'><Transform USE='T'/></field></Script>"
+                          "</Transform>"),
+                      "");
+    check_only_faults(
+        "an instance that is not complete cannot be used",
+        CLASSIC("PROTO P [ inputOutput SFNode n NULL ] { Script { field SFNode n IS n } }\n"
+                "DEF A P { n Script { field SFNode m USE A } }"),
+        "4:41 error recursion\n");
     check_only_faults("prototype inside itself",
                       CLASSIC("PROTO P [ ] { Group { children P { } } }\nP { }"),
                       "3:32 error recursion\n");

@@ -118,6 +118,12 @@ static void test_containers(void) {
                 "ComposedShader { parts ShaderPart { } } } geometry IndexedFaceSet { coordIndex "
                 "[ 0 1 2 ] coord Coordinate { point [ 0 0 0 1 0 0 0 1 0 ] } } } ] }"));
     check_same(
+        "metadata",
+        XML("<Shape><MetadataSet name='s'><MetadataBoolean value='true false'/><MetadataInteger "
+            "value='1'/></MetadataSet></Shape>"),
+        CLASSIC("Shape { metadata MetadataSet { name \"s\" value [ MetadataBoolean { value [ TRUE "
+                "FALSE ] } MetadataInteger { value 1 } ] } }"));
+    check_same(
         "the only field that takes the node",
         XML("<VolumeData><PixelTexture3D/><ShadedVolumeStyle><Material/></ShadedVolumeStyle>"
             "</VolumeData>"),

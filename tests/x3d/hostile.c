@@ -203,8 +203,7 @@ static void test_broken(void) {
     plr_diags_destroy(&diags);
 }
 
-/* ---- Memory that runs out
- * --------------------------------------------------------------------------- */
+/* ---- Memory that runs out ---- */
 
 typedef struct failing {
     size_t allocations, fail_at, live;
