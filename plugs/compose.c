@@ -62,44 +62,45 @@ static void need(composer *c, plr_node *node, bool declare) {
     *PLR_PUSH(c->l->pass, &c->stack) = (frame){node, NULL, declare, false};
 }
 
-static void need_definition(composer *c, const plr_node *user, const plr_definition *d,
-                            bool types_only) {
-    plr_node *node = d->node;
-    if (!node->reached || node->dropped || node == user || (d->name->inner && d->name->inner_body))
-        return;
-    bool function = node->item->kind == PLR_ITEM_FUNCTION;
-    if (function) {
-        if (!types_only)
-            need(c, node, true);
-        return;
-    }
-    if (d->name->kind == PLR_ITEM_MACRO && node->unit->scope == user->unit->scope &&
-        (node->unit->index > user->unit->index ||
-         (node->unit == user->unit && node->item > user->item)))
-        return; /* not defined yet where it is named */
-    need(c, node, false);
+/* Whether a definition needs nothing more, for whoever names it. */
+static bool is_done(const plr_definition *d) {
+    const plr_node *node = d->node;
+    return !node->reached || node->dropped || node->emitted ||
+           (d->name->inner && d->name->inner_body) ||
+           (node->declared && node->item->kind == PLR_ITEM_FUNCTION);
+}
+
+/* A macro that is defined only after the text that names it. */
+static bool is_later_macro(const plr_node *user, const plr_definition *d) {
+    const plr_unit *unit = d->node->unit;
+    return d->name->kind == PLR_ITEM_MACRO && unit->scope == user->unit->scope &&
+           (unit->index > user->unit->index || (unit == user->unit && d->node->item > user->item));
 }
 
 static void need_symbol(composer *c, const plr_node *user, plr_binding *symbol, bool types_only) {
-    if (symbol->settled)
-        return;
-    for (const plr_definition *d = symbol->definitions; d; d = d->next)
-        need_definition(c, user, d, types_only);
-    symbol->settled = !types_only && !symbol->macro &&
-                      (!symbol->definitions || symbol->definitions->node != user);
+    while (symbol->pending && is_done(symbol->pending))
+        symbol->pending = symbol->pending->next; /* for good: so that time stays linear */
+    for (const plr_definition *d = symbol->pending; d && !is_later_macro(user, d); d = d->next) {
+        bool function = d->node->item->kind == PLR_ITEM_FUNCTION;
+        if (d->node != user && !is_done(d) && !(function && types_only))
+            need(c, d->node, function);
+    }
 }
 
 /* What a prototype names: the types and constants of its parameters. */
 static void need_of_prototype(composer *c, plr_node *node) {
     plr_unit *unit = node->unit;
     const plr_name *names = &unit->cut->names.items[node->item->names];
-    uint32_t close = 0;
+    uint32_t close = 0, own = 0;
     for (uint32_t n = 0; n < node->item->name_count && !close; n++)
-        if (names[n].kind == PLR_ITEM_FUNCTION && !names[n].inner)
+        if (names[n].kind == PLR_ITEM_FUNCTION && !names[n].inner) {
             close = names[n].close;
+            own = names[n].token;
+        }
     for (uint32_t i = node->item->first; i < close; i++) {
         const plr_token *token = &unit->lexed->tokens.items[i];
-        plr_binding *symbol = token->kind == PLR_T_IDENT ? unit->refs[token->value] : NULL;
+        plr_binding *symbol =
+            token->kind == PLR_T_IDENT && i != own ? unit->refs[token->value] : NULL;
         if (symbol && !(token->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL)))
             need_symbol(c, node, symbol, true);
     }

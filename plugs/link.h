@@ -68,12 +68,12 @@ struct plr_binding {
     uint32_t gid;
     plr_scope *scope;
     plr_definition *definitions, *last;
+    const plr_definition *pending; /* the first that may still be missing in the text */
     const char *text; /* in the program; NULL: not made yet */
     uint32_t length;
     uint32_t variant; /* 2 and more: a unit's own among several of the effect */
     bool renamed, macro, function, variable, weak /* prototypes only */, reached;
     bool builtin; /* also the name of a built-in function */
-    bool settled; /* all its declarations are in the text */
     uint32_t stamp;
 };
 

@@ -142,7 +142,7 @@ static void add_definition(plr_linking *l, plr_binding *symbol, plr_node *node,
     if (symbol->last)
         symbol->last->next = definition;
     else
-        symbol->definitions = definition;
+        symbol->pending = symbol->definitions = definition;
     symbol->last = definition;
     symbol->macro |= name->kind == PLR_ITEM_MACRO;
     symbol->function |= name->kind == PLR_ITEM_FUNCTION;

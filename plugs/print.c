@@ -559,13 +559,16 @@ static uint32_t print_plug(plr_printer *p, uint32_t at) {
     const plr_lexed *lexed = p->unit->lexed;
     const plr_plug *plug = &lexed->plugs.items[lexed->tokens.items[at].value];
     plr_socket *socket = p->unit->sockets[lexed->tokens.items[at].value];
-    uint32_t next = plr_active(lexed, p->unit->activity, plug->end);
-    uint8_t follows = lexed->tokens.items[next].kind, before = p->before;
     if (!socket || socket->calls.count == 0)
         return plug->end;
-    if (before != ')' && before != PLR_T_IDENT) {
+    if (p->before != ')' && p->before != PLR_T_IDENT) {
         print_calls(p, socket, "", "");
-    } else if (follows == '{') {
+        p->last = plug->offset;
+        return plug->end;
+    }
+    uint32_t next = plr_active(lexed, p->unit->activity, plug->end);
+    uint8_t follows = lexed->tokens.items[next].kind;
+    if (follows == '{') {
         p->inside = socket;
     } else if (follows == ';') {
         print_calls(p, socket, "{ ", " }");

@@ -157,12 +157,26 @@ static void reach_roots(plr_linking *l, plr_scope *scope, bool all) {
     }
 }
 
+/* What a macro stands for; its name is no use of it, but must be known. */
+static void reach_macro(plr_linking *l, plr_node *node) {
+    plr_unit *unit = node->unit;
+    uint32_t name = node->item->first + 1;
+    uint32_t local = unit->lexed->tokens.items[name].value;
+    if (unit->actions[local] == PLR_ACTION_UNKNOWN)
+        plr_resolve(l, unit, local);
+    reach_range(l, node, name + 1, node->item->end);
+}
+
 /* The text of an item; a function's own name is no use of it. */
 static void reach_item(plr_linking *l, plr_node *node) {
     const plr_item *item = node->item;
     plr_unit *unit = node->unit;
     uint32_t first = item->first;
     reach_range(l, node, item->prefix, item->prefix_end);
+    if (item->kind == PLR_ITEM_MACRO) {
+        reach_macro(l, node);
+        return;
+    }
     if (item->kind == PLR_ITEM_FUNCTION && node->symbol) {
         const plr_name *name = &unit->cut->names.items[item->names];
         uint32_t local = unit->lexed->tokens.items[name->token].value;
