@@ -371,7 +371,8 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
 }
 
 void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
-                   const plr_program *program, GLuint name, plr_slots *slots) {
+                   const plr_program *program, const plr_built *built, plr_slots *slots) {
+    slots->defaults = NULL;
     unsigned units = 0;
     for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
@@ -386,9 +387,11 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
                          .array = symbol->array,
                          .type = find_glsl_type(symbol->type),
                          .volume = binding ? binding->volume : PLR_NO_EFFECT};
+        if (symbol->kind == PLR_UNIFORM && !slot.type)
+            slots->defaults = built->defaults;
         if (symbol->kind != PLR_UNIFORM || !slot.type)
             continue;
-        slot.location = gl->GetUniformLocation(name, symbol->program);
+        slot.location = gl->GetUniformLocation(built->name, symbol->program);
         bool builtin = !own && recipe->effects.items[symbol->effect].builtin;
         if (slot.location < 0)
             continue;
@@ -397,10 +400,14 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
         for (uint32_t element = 0; element < (many ? symbol->array : 1); element++) {
             plr_slot one = slot;
             one.location += (GLint)element;
-            if (!find_source(k, symbol, binding, builtin, element, &one))
+            if (!find_source(k, symbol, binding, builtin, element, &one)) {
+                slots->defaults = built->defaults;
                 break;
+            }
             if (one.type->shape == SHAPE_SAMPLER)
                 one.unit = units++;
+            else if (one.field && one.array > one.field->count)
+                slots->defaults = built->defaults; /* for the rest of the array */
             *PLR_PUSH(k->arena, slots) = one;
         }
     }
@@ -513,6 +520,7 @@ static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_s
 
 void plr_bind_set(const plr_gl *gl, const plr_textures *textures, const plr_slots *slots,
                   const plr_values *values) {
+    plr_defaults_apply(gl, slots->defaults);
     for (size_t i = 0; i < slots->count; i++)
         set_slot(gl, textures, &slots->items[i], values);
 }

@@ -44,6 +44,9 @@ typedef struct plr_slot plr_slot;
 typedef struct plr_slots {
     plr_slot *items;
     size_t count, capacity;
+    /* Set where some uniform has no source: its initialiser stands, whoever used the program
+     * before. */
+    const plr_defaults *defaults;
 } plr_slots;
 
 /* Compares the fields of authors' effects with the uniforms of the program: an effect whose types
@@ -53,7 +56,7 @@ bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *d
 
 /* Finds the locations. Needs GL. */
 void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *recipe,
-                   const plr_program *program, GLuint name, plr_slots *slots);
+                   const plr_program *program, const plr_built *built, plr_slots *slots);
 /* Whether any slot takes a value that the engine knows by this name ("gradientUnit"). */
 bool plr_bind_needs(const plr_slots *slots, const char *name);
 /* Sets all uniforms of the program in use and binds its textures. Needs GL. */

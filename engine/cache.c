@@ -9,6 +9,7 @@
 typedef struct slot {
     uint8_t key[PLR_SHA256_SIZE];
     GLuint program;
+    plr_defaults *defaults;
 } slot;
 
 struct plr_cache {
@@ -226,8 +227,10 @@ void plr_cache_destroy(plr_cache **cache) {
     if (!c)
         return;
     for (size_t i = 0; i < c->size; i++)
-        if (c->slots[i].program)
+        if (c->slots[i].program) {
             c->gl->DeleteProgram(c->slots[i].program);
+            plr_defaults_destroy(&c->slots[i].defaults);
+        }
     if (c->on_disk)
         plr_cache_folder_close(&c->folder);
     free(c->slots);
@@ -263,9 +266,17 @@ GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COU
         slot *fresh = find(cache->slots, cache->size, key);
         memcpy(fresh->key, key, sizeof key);
         fresh->program = program;
+        fresh->defaults = plr_defaults_capture(cache->gl, program);
         cache->count++;
     }
     return program;
+}
+
+const plr_defaults *plr_cache_defaults(const plr_cache *cache, GLuint program) {
+    for (size_t i = 0; i < cache->size; i++)
+        if (cache->slots[i].program == program)
+            return cache->slots[i].defaults;
+    return NULL;
 }
 
 plr_cache_stats plr_cache_get_stats(const plr_cache *cache) {

@@ -3,6 +3,7 @@
 #define PLR_ENGINE_CACHE_H
 
 #include <plugray/plugs.h>
+#include "engine/defaults.h"
 #include "engine/gl.h"
 #include "engine/glsl.h"
 
@@ -20,6 +21,9 @@ void plr_cache_destroy(plr_cache **cache);
  */
 GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT],
                          plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link);
+
+/* What the uniforms of a program of the cache are when nobody has set them; owned by the cache. */
+const plr_defaults *plr_cache_defaults(const plr_cache *cache, GLuint program);
 
 typedef struct plr_cache_stats {
     size_t compiled, from_memory, from_disk;

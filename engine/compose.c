@@ -233,6 +233,7 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
     if (compile(c, texts, &v, &name)) {
         built = keep(c, recipe, kind, program, hash);
         built->name = name;
+        built->defaults = name ? plr_cache_defaults(c->cache, name) : NULL;
     } else {
         *again = blame_all(c, program, recipe, &v, round >= CAREFUL_ROUNDS);
         if (!*again)

@@ -10,6 +10,7 @@
 typedef struct plr_built {
     plr_program_info info;
     GLuint name; /* 0 without GL */
+    const plr_defaults *defaults;
     uint64_t hash;
 } plr_built;
 

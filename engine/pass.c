@@ -35,6 +35,6 @@ void plr_pass_light_authors(plr_view *view, plr_recipe *recipe) {
 
 void plr_pass_find(plr_view *view, plr_pass *pass) {
     if (pass->built)
-        plr_bind_find(&view->kitchen, &view->engine->gl, &pass->recipe, pass->program,
-                      pass->built->name, &pass->slots);
+        plr_bind_find(&view->kitchen, &view->engine->gl, &pass->recipe, pass->program, pass->built,
+                      &pass->slots);
 }
