@@ -269,12 +269,15 @@ bool x3d_value(x3d_build *build, plr_node *node, size_t index, x3d_lexer *lexer,
                            .keep_newlines = strcmp(field->name, "url") == 0,
                            .angle_factor = build->angle_factor};
     plr_field old = *field;
-    if (!x3d_value_read(build->scene, lexer, &desc, field))
+    if (!x3d_value_read(build->scene, lexer, &desc, field)) {
+        field->given = false;
         return false;
+    }
     if (field->type == PLR_MFINT32 && strcmp(field->name, "image") == 0 && node->type &&
         plr_node_is(node, "PixelTexture3D") && !check_voxels(build->scene, field, field->place)) {
         field->value = old.value;
         field->count = old.count;
+        field->given = false;
         return false;
     }
     return true;
@@ -383,7 +386,7 @@ size_t x3d_declare(x3d_build *build, plr_node *node, plr_type type, plr_access a
                    x3d_label name) {
     plr_scene *scene = build->scene;
     enum {
-        MOST_DECLARED = 10000
+        MOST_DECLARED = 1000
     };
     if (node->field_count >= MOST_DECLARED) {
         x3d_report(scene, PLR_CODE_LIMIT, name.place, "more than %d fields", MOST_DECLARED);

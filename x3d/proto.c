@@ -278,6 +278,8 @@ static void forward_is(const copier *c, const x3d_open *open, const x3d_instance
             *PLR_PUSH(&c->build->scene->arena, &outer->is) = entries[i];
             continue;
         }
+        if (!x3d_spend(c->build->scene, instance->target_count, entries[i].place))
+            return;
         for (size_t t = 0; t < instance->target_count; t++)
             if (instance->targets[t].interface == entries[i].field)
                 push_is(c->build->scene, outer,

@@ -10,7 +10,8 @@ enum {
     USUAL_DEPTH = 512,
     MOST_DEPTH = 2000,
     USUAL_NODES = 10000000,
-    NEAREST_BUDGET = 200000
+    NEAREST_BUDGET = 200000,
+    WORK_BUDGET = 1000000000
 };
 
 x3d_file *x3d_add_file(plr_scene *scene, const char *name, const char *folder, const char *real,
@@ -72,6 +73,7 @@ static plr_scene *create(const plr_read_desc *desc) {
         scene->max_depth = MOST_DEPTH;
     scene->max_memory = desc->max_memory ? desc->max_memory : (size_t)4 << 30;
     scene->nearest_budget = NEAREST_BUDGET;
+    scene->work_budget = WORK_BUDGET;
     scene->version = "";
     scene->length_unit = scene->angle_unit = 1;
     plr_allocator counting = x3d_counting_allocator(scene);

@@ -100,7 +100,7 @@ static size_t index_in(const plr_node *node, const char *name, size_t length) {
 /* By its own name, or as set_x or x_changed. */
 static size_t find_event(x3d_build *build, const plr_node *node, x3d_label name, bool output) {
     size_t index = index_in(node, name.text, name.length);
-    if (index != SIZE_MAX)
+    if (index != SIZE_MAX || !x3d_spend(build->scene, 3 * node->field_count, name.place))
         return index;
     if (!output && name.length > 4 && memcmp(name.text, "set_", 4) == 0)
         index = index_in(node, name.text + 4, name.length - 4);
@@ -152,12 +152,15 @@ static const plr_field *find_end(x3d_build *build, x3d_label node_name, x3d_labe
     return NULL;
 }
 
-static void collect(x3d_build *build, plr_node *node, size_t index, end_list *ends) {
+static void collect(x3d_build *build, plr_node *node, size_t index, plr_place place,
+                    end_list *ends) {
     plr_arena *arena = &build->scene->arena;
     if (!node->instance) {
         *PLR_PUSH(arena, ends) = (route_end){node, index};
         return;
     }
+    if (!x3d_spend(build->scene, node->instance->target_count, place))
+        return;
     for (size_t i = 0; i < node->instance->target_count; i++)
         if (node->instance->targets[i].interface == index)
             *PLR_PUSH(arena, ends) =
@@ -179,8 +182,8 @@ static void end_route(x3d_build *build, const x3d_pending_route *route) {
         return;
     }
     end_list sources = {0}, targets = {0};
-    collect(build, from_node, from_index, &sources);
-    collect(build, to_node, to_index, &targets);
+    collect(build, from_node, from_index, route->place, &sources);
+    collect(build, to_node, to_index, route->place, &targets);
     x3d_proto *proto = build->scope->proto;
     enum {
         MOST_BRANCHES = 1000000
@@ -199,10 +202,10 @@ static void end_route(x3d_build *build, const x3d_pending_route *route) {
 
 void x3d_scope_end(x3d_build *build) {
     x3d_scope *scope = build->scope;
-    for (size_t i = 0; i < scope->imports.count; i++)
+    for (size_t i = 0; i < scope->imports.count && !build->scene->stopped; i++)
         end_import(build, &scope->imports.items[i]);
-    for (size_t i = 0; i < scope->export_names.count; i++)
+    for (size_t i = 0; i < scope->export_names.count && !build->scene->stopped; i++)
         end_export(build, &scope->export_names.items[i]);
-    for (size_t i = 0; i < scope->routes.count; i++)
+    for (size_t i = 0; i < scope->routes.count && !build->scene->stopped; i++)
         end_route(build, &scope->routes.items[i]);
 }

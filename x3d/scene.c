@@ -70,6 +70,17 @@ void x3d_warn(plr_scene *scene, plr_code code, plr_place place, const char *form
     plr_diags_add_as(scene->diags, PLR_WARNING, code, place, "%s", message);
 }
 
+bool x3d_spend(plr_scene *scene, size_t steps, plr_place place) {
+    if (steps <= scene->work_budget) {
+        scene->work_budget -= steps;
+        return true;
+    }
+    if (!scene->stopped)
+        x3d_report(scene, PLR_CODE_LIMIT, place, "ROUTEs and prototypes are too many");
+    scene->stopped = true;
+    return false;
+}
+
 void x3d_suggest(plr_scene *scene, plr_place place, const x3d_nearest *nearest) {
     if (nearest->best && scene->reported <= MOST_REPORTS)
         plr_diags_note(scene->diags, place, "did you mean '%s'?", nearest->best);

@@ -83,6 +83,7 @@ struct plr_scene {
     plr_diags *diags; /* of the call that runs */
     size_t reported;
     size_t nearest_budget; /* how many names may still be compared */
+    size_t work_budget;    /* how many steps may still go into what grows faster than its text */
     bool stopped;          /* a limit was reached: nothing more is read */
 
     x3d_file *files;
@@ -111,6 +112,8 @@ void x3d_report(plr_scene *scene, plr_code code, plr_place place, const char *fo
     PLR_PRINTF(4, 5);
 void x3d_warn(plr_scene *scene, plr_code code, plr_place place, const char *format, ...)
     PLR_PRINTF(4, 5);
+/* Takes from the work budget; false when it is used up (reported; everything then stops). */
+bool x3d_spend(plr_scene *scene, size_t steps, plr_place place);
 /* "(did you mean 'x'?)" as a note, where there is a nearest name. */
 void x3d_suggest(plr_scene *scene, plr_place place, const x3d_nearest *nearest);
 

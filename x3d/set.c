@@ -70,6 +70,7 @@ bool plr_node_set_text(plr_scene *scene, plr_node *node, const char *field, cons
     jmp_buf *outer = scene->arena.out_of_memory;
     volatile bool ok = false;
     scene->diags = diags;
+    scene->reported = 0;
     scene->arena.out_of_memory = &out_of_memory;
     if (setjmp(out_of_memory) == 0) {
         plr_place kept = place; /* strings keep the name of their file */

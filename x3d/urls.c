@@ -21,6 +21,7 @@ static void enter(entry *e, plr_scene *scene, plr_diags *diags) {
     e->outer_diags = scene->diags;
     scene->arena.out_of_memory = &e->out_of_memory;
     scene->diags = diags;
+    scene->reported = 0;
 }
 
 static void leave(entry *e, plr_scene *scene) {

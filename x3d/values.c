@@ -318,14 +318,26 @@ static bool is_default(const reader *r, const plr_field *field) {
            memcmp(field->value.any, r->items, r->count * r->size) == 0;
 }
 
+static bool is_angle(const reader *r) {
+    static const char *const names[] = {"beamWidth",  "cutOffAngle", "creaseAngle", "fieldOfView",
+                                        "startAngle", "endAngle",    "minAngle",    "maxAngle",
+                                        "skyAngle",   "groundAngle"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (r->kind == PLR_FLOAT && plr_type_components(r->desc->type) == 1 &&
+            strcmp(r->desc->field, names[i]) == 0)
+            return true;
+    return false;
+}
+
+/* An inlined file may count angles in another unit than the main file. */
 static void turn_angles(reader *r) {
     double factor = r->desc->angle_factor;
     bool rotation = r->desc->type == PLR_SFROTATION || r->desc->type == PLR_MFROTATION;
-    if (!rotation || factor == 0 || factor == 1)
+    if (factor == 0 || factor == 1 || (!rotation && !is_angle(r)))
         return;
     float *numbers = (float *)(void *)r->items;
-    for (size_t i = 3; i < r->count; i += 4)
-        numbers[i] = (float)(numbers[i] * factor);
+    for (size_t i = rotation ? 3 : 0; i < r->count; i += rotation ? 4 : 1)
+        numbers[i] = (float)((double)numbers[i] * factor);
 }
 
 bool x3d_value_read(plr_scene *scene, x3d_lexer *lexer, const x3d_value_desc *desc,

@@ -39,7 +39,8 @@ typedef struct x3d_frame {
     struct {
         x3d_pending_is *items;
         size_t count, capacity;
-    } is; /* X3D_IN_NODE: fields may be declared after the IS element */
+    } is;             /* X3D_IN_NODE: fields may be declared after the IS element */
+    size_t text_room; /* X3D_IN_NODE: strings that the array of its url has room for */
     struct x3d_frame *outer;
 } x3d_frame;
 

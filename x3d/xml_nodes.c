@@ -99,6 +99,13 @@ bool x3d_label_is(const x3d_label *label, const char *text) {
 
 /* ---- Nodes ---- */
 
+static bool has_newline(const plr_field *field) {
+    for (size_t i = 0; plr_type_kind(field->type) == PLR_STRING && i < field->count; i++)
+        if (memchr(field->value.strings[i].text, '\n', field->value.strings[i].length))
+            return true;
+    return false;
+}
+
 /* Reads the value of a field from an attribute. */
 void x3d_xml_read_value(x3d_xml *x, plr_node *node, size_t index,
                         const x3d_xml_attribute *attribute) {
@@ -113,13 +120,12 @@ void x3d_xml_read_value(x3d_xml *x, plr_node *node, size_t index,
     }
     x3d_lexer lexer;
     x3d_lexer_init(&lexer, &view, false);
-    bool code = plr_type_kind(field->type) == PLR_STRING && strcmp(field->name, "url") == 0;
-    const char *raw = x->scan.text + attribute->start;
-    if (code && memchr(raw, '\n', attribute->end - attribute->start))
+    x3d_value(x->build, node, index, &lexer, true);
+    if (strcmp(field->name, "url") == 0 && has_newline(field) &&
+        memchr(x->scan.text + attribute->start, '\n', attribute->end - attribute->start))
         x3d_report(scene, PLR_CODE_NEWLINES, x3d_xml_place(x, attribute->start),
                    "text of several lines in an attribute: other browsers join the lines, put it "
                    "into a CDATA section");
-    x3d_value(x->build, node, index, &lexer, true);
 }
 
 /* class, id and style of X3D 4 speak to web pages. */
@@ -257,9 +263,13 @@ void x3d_xml_add_text(x3d_xml *x, const x3d_xml_token *token) {
     }
     x3d_view view = x3d_xml_view(x, token->start, token->end, cdata);
     plr_field *field = &node->fields[index];
-    plr_string *strings = PLR_NEW_ARRAY(&x->scene->arena, field->count + 1, plr_string);
-    if (field->count)
-        memcpy(strings, field->value.strings, field->count * sizeof *strings);
+    plr_string *strings = (plr_string *)(uintptr_t)field->value.strings;
+    if (field->count >= x->top->text_room) {
+        x->top->text_room = 2 * field->count + 1;
+        strings = PLR_NEW_ARRAY(&x->scene->arena, x->top->text_room, plr_string);
+        if (field->count)
+            memcpy(strings, field->value.strings, field->count * sizeof *strings);
+    }
     strings[field->count] = x3d_view_string(&x->scene->arena, &view, 0, view.length, 0);
     if (!field->given)
         field->place = x3d_xml_place(x, token->at);

@@ -111,9 +111,10 @@ static void test_inline_faults(void) {
 }
 
 static void test_units(void) {
-    write_file("mm.x3d", "<X3D><head><unit category='length' name='mm' conversionFactor='0.001'/>"
-                         "<unit category='angle' name='deg' conversionFactor='0.5'/></head><Scene>"
-                         "<Transform rotation='0 0 1 2'/></Scene></X3D>");
+    write_file("mm.x3d",
+               "<X3D><head><unit category='length' name='mm' conversionFactor='0.001'/>"
+               "<unit category='angle' name='deg' conversionFactor='0.5'/></head><Scene>"
+               "<Transform rotation='0 0 1 2'/><SpotLight cutOffAngle='1.5'/></Scene></X3D>");
     write_file("units.x3dv", CLASSIC("UNIT length cm 0.01 Inline { url \"mm.x3d\" }"));
     plr_scene *scene = read_checked("units", "units.x3dv", NULL, "");
     const plr_node *wrapper = plr_node_child(plr_scene_root(scene, 0), "children");
@@ -122,6 +123,8 @@ static void test_units(void) {
     CHECK_NEAR(numbers[0], 0.1, 1e-7);
     plr_node_numbers(plr_node_child(wrapper, "children"), "rotation", numbers, 4);
     CHECK_NEAR(numbers[3], 1, 1e-7);
+    const plr_node *light = plr_node_field(wrapper, "children")->value.nodes[1];
+    CHECK_NEAR(plr_node_number(light, "cutOffAngle"), 0.75, 1e-7);
     plr_scene_destroy(&scene);
 }
 

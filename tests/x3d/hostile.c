@@ -93,6 +93,39 @@ static void test_counts(void) {
                 repeat(header, "PROTO P [ ] { Group { } } P { } ", 20000, ""), NULL, "");
 }
 
+/* Everything here would take the square of its length, if it were allowed to. */
+static void test_squares(void) {
+    const char *header = "#X3D V3.3 utf8\n";
+    check_codes(
+        "many ROUTEs to an instance of many fields",
+        repeat("#X3D V3.3 utf8\nPROTO P [ inputOutput SFVec3f a 1 1 1 ] { DEF T Transform { ",
+               "scale IS a ", 90000, "} }\nDEF A P { }\nDEF B Transform { }\n"),
+        NULL, "");
+    char *routes = repeat("", "ROUTE B.scale TO A.a ", 30000, "");
+    char *text =
+        repeat("#X3D V3.3 utf8\nPROTO P [ inputOutput SFVec3f a 1 1 1 inputOutput SFVec3f b 1 "
+               "1 1 ] { DEF T Transform { ",
+               "scale IS b ", 90000, "} }\nDEF A P { }\nDEF B Transform { }\n");
+    text = realloc(text, strlen(text) + strlen(routes) + 1);
+    strcat(text, routes);
+    free(routes);
+    check_codes("many ROUTEs to an instance with many IS", text, NULL, "limit ");
+    check_codes(
+        "many sections of CDATA",
+        repeat("<X3D><Scene><EffectPart>", "<![CDATA[x;]]>", 200000, "</EffectPart></Scene></X3D>"),
+        NULL, "");
+    check_codes(
+        "many strings with entities",
+        repeat("<X3D><Scene><WorldInfo info='", "&quot;&lt;&quot; ", 200000, "'/></Scene></X3D>"),
+        NULL, "");
+    check_codes("many declared fields",
+                repeat("#X3D V3.3 utf8\nScript { ", "inputOnly SFBool x ", 100000, "}"), NULL,
+                "bad-value limit ");
+    check_codes("many lines", repeat(header, "\n", 3000000, "Group { }"), NULL, "");
+    check_codes("many ampersands", repeat("<X3D><Scene><WorldInfo title='", "&", 1000000, "'/>"),
+                NULL, "xml ");
+}
+
 static void test_growth(void) {
     char *text = malloc(20000), *p = text;
     p +=
@@ -297,6 +330,7 @@ static void test_memory(void) {
 int main(void) {
     test_nesting();
     test_counts();
+    test_squares();
     test_growth();
     test_entities();
     test_broken();

@@ -89,6 +89,12 @@ static void test_newlines_in_attribute(void) {
     plr_diags_destroy(&diags);
 }
 
+static void test_newlines_between_strings(void) {
+    check_only_faults("newlines between strings are none of a fault",
+                      XML("<ImageTexture url='\"a.png\"\n \"b.png\"'/>"), "");
+    check_only_faults("nor are those of other fields", XML("<WorldInfo info='\"a\nb\"'/>"), "");
+}
+
 static void test_base64(void) {
     plr_diags *diags;
     plr_scene *scene = parse_text(PART("url='data:text/plain;base64,aW50IHg7Cg=='/>"), "s", &diags);
@@ -183,6 +189,7 @@ int main(void) {
     test_code_classic();
     test_code_xml();
     test_newlines_in_attribute();
+    test_newlines_between_strings();
     test_base64();
     test_nodes_and_fields();
     test_lines();
