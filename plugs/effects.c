@@ -38,18 +38,18 @@ static bool take_text(plr_linking *l, plr_scope *scope) {
     return good;
 }
 
-/* The plugs that a faulty effect would have offered: who needs them lacks them. */
+/* The plugs that a faulty or disabled effect would have offered: who needs them lacks them. */
 static void note_lost(plr_linking *l, uint32_t effect) {
     uint32_t *number = PLR_NEW(l->pass, uint32_t);
     *number = effect;
-    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
-        const plr_scope *scope = plr_scope_of(l, (plr_stage)s, effect);
-        for (uint32_t u = 0; u < scope->unit_count; u++) {
-            const plr_unit *unit = &scope->units[u];
-            for (size_t i = 0; i < unit->lexed->plugs.count; i++) {
-                uint32_t gid = unit->reading->gids[unit->lexed->plugs.items[i].name];
-                *plr_table_put(l->pass, &l->lost, (uint64_t)(s + 1) << 32 | gid) = number;
-            }
+    const plr_effect *lost = &l->desc->effects[effect];
+    for (size_t s = 0; s < lost->source_count; s++) {
+        const plr_source *source = lost->sources[s];
+        const plr_reading *reading =
+            source ? plr_table_get(&l->readings, (uint64_t)(uintptr_t)source) : NULL;
+        for (size_t i = 0; reading && i < source->lexed.plugs.count; i++) {
+            uint32_t gid = reading->gids[source->lexed.plugs.items[i].name];
+            *plr_table_put(l->pass, &l->lost, (uint64_t)(source->stage + 1u) << 32 | gid) = number;
         }
     }
 }
@@ -136,7 +136,9 @@ void plr_add_effects(plr_linking *l) {
             plr_add_sockets(l, &base->units[u]);
     }
     for (uint32_t e = 0; e < l->effect_count && !l->base_fault; e++)
-        if (!l->desc->effects[e].disabled)
+        if (l->desc->effects[e].disabled)
+            note_lost(l, e);
+        else
             add_effect(l, e);
     if (l->base_fault)
         return;
