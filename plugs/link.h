@@ -69,7 +69,7 @@ struct plr_binding {
     plr_scope *scope;
     plr_definition *definitions, *last;
     const plr_definition *pending; /* the first that may still be missing in the text */
-    const char *text; /* in the program; NULL: not made yet */
+    const char *text;              /* in the program; NULL: not made yet */
     uint32_t length;
     uint32_t variant; /* 2 and more: a unit's own among several of the effect */
     bool renamed, macro, function, variable, weak /* prototypes only */, reached;
@@ -269,6 +269,13 @@ const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *leng
 plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint32_t gid);
 bool plr_same_tokens(const plr_unit *a, uint32_t a_first, uint32_t a_end, const plr_unit *b,
                      uint32_t b_first, uint32_t b_end);
+
+/* Whether a local variable has the name of a macro of the base, the library or another effect. */
+static inline bool plr_is_hidden_local(const plr_linking *l, const plr_unit *unit,
+                                       const plr_token *token, const plr_binding *symbol) {
+    return symbol && symbol->macro && token->flags & PLR_TF_LOCAL && symbol->scope != unit->scope &&
+           unit->scope->owner < l->effect_count;
+}
 
 /* sockets.c: plugs and the functions called there. */
 void plr_add_sockets(plr_linking *l, plr_unit *unit);

@@ -109,6 +109,14 @@ static bool same_type(const plr_unit *a, const plr_item *x, const plr_unit *b, c
            plr_same_tokens(a, x->first, declarator_end(a, x), b, y->first, declarator_end(b, y));
 }
 
+static uint32_t parameter_type(const plr_unit *unit, uint32_t i, uint32_t end) {
+    i = next_of_type(unit, i, end);
+    while (i < end && unit->lexed->tokens.items[i].kind == PLR_T_IDENT &&
+           plr_token_ident(unit, i)->word == PLR_WORD_const)
+        i = next_of_type(unit, i + 1, end);
+    return i;
+}
+
 /* Whether two functions have parameters of the same types: the words of each less the last. */
 static bool same_signature(const plr_unit *a, const plr_name *x, const plr_unit *b,
                            const plr_name *y) {
@@ -122,7 +130,7 @@ static bool same_signature(const plr_unit *a, const plr_name *x, const plr_unit 
             i_end++;
         while (k_end < y->close && tb[k_end].kind != ',')
             k_end++;
-        uint32_t i_type = next_of_type(a, i, i_end), k_type = next_of_type(b, k, k_end);
+        uint32_t i_type = parameter_type(a, i, i_end), k_type = parameter_type(b, k, k_end);
         if (i_type < i_end && k_type < k_end && ta[i_type].kind == PLR_T_IDENT &&
             !plr_same_tokens(a, i_type, i_type + 1, b, k_type, k_type + 1))
             return false;
@@ -169,6 +177,16 @@ static plr_binding *get_symbol(plr_linking *l, plr_scope *scope, uint32_t gid) {
     return symbol ? symbol : new_symbol(l, scope_key(scope->number, gid), scope, gid);
 }
 
+/* A uniform or varying of the same type, in other words: `uniform highp float`. */
+static bool is_interface_again(const plr_definition *d, const plr_node *node,
+                               const plr_name *name) {
+    const uint8_t interface =
+        PLR_Q_UNIFORM | PLR_Q_IN | PLR_Q_OUT | PLR_Q_VARYING | PLR_Q_ATTRIBUTE;
+    return d->name->qualifiers & interface && name->qualifiers & interface &&
+           d->node->item->kind == PLR_ITEM_VARIABLE && node->item->kind == PLR_ITEM_VARIABLE &&
+           same_type(d->node->unit, d->node->item, node->unit, node->item);
+}
+
 typedef enum verdict {
     VERDICT_DECLARE, /* another declaration of the same symbol: overloads, one unit's own business
                       */
@@ -188,7 +206,8 @@ static verdict judge(const plr_linking *l, const plr_binding *symbol, plr_node *
         bool functions = name->kind == PLR_ITEM_FUNCTION && d->name->kind == PLR_ITEM_FUNCTION;
         if (functions && !same_signature(d->node->unit, d->name, node->unit, name))
             continue;
-        if (same_item(d->node->unit, d->node->item, node->unit, node->item))
+        if (same_item(d->node->unit, d->node->item, node->unit, node->item) ||
+            is_interface_again(d, node, name))
             return VERDICT_DROP;
         if (name->kind == PLR_ITEM_MACRO && d->name->kind == PLR_ITEM_MACRO)
             node->undefine_before = true;
@@ -327,7 +346,8 @@ static bool declares_struct_like(plr_linking *l, plr_node *node, const plr_scope
     return true;
 }
 
-/* A struct that is spelt as in an effect whose plug this one implements, or in the base. */
+/* A struct that is spelt as in an effect whose plug this one implements, or in the base or the
+ * library. */
 static bool is_shared_struct(plr_linking *l, plr_node *node, uint32_t gid) {
     const plr_scope *scope = node->unit->scope;
     if (node->item->kind != PLR_ITEM_STRUCT || node->item->name_count != 1)
@@ -336,7 +356,8 @@ static bool is_shared_struct(plr_linking *l, plr_node *node, uint32_t gid) {
         if (declares_struct_like(l, node, plr_scope_of(l, scope->stage, scope->providers.items[i]),
                                  gid))
             return true;
-    return declares_struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_BASE(l)), gid);
+    return declares_struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_BASE(l)), gid) ||
+           declares_struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_LIBRARY(l)), gid);
 }
 
 /* ---- The names of a scope ----------------------------------------------------------------------
@@ -430,11 +451,30 @@ static plr_binding *find_provided(const plr_linking *l, const plr_scope *scope, 
     return NULL;
 }
 
+static bool is_host_binding(const plr_binding *symbol) {
+    return symbol->variable &&
+           symbol->definitions->name->qualifiers &
+               (PLR_Q_UNIFORM | PLR_Q_IN | PLR_Q_OUT | PLR_Q_VARYING | PLR_Q_ATTRIBUTE);
+}
+
+/* A library name that the base has for something else. */
+static bool is_hidden_by_base(const plr_linking *l, const plr_binding *symbol) {
+    if (symbol->scope->owner != PLR_OWNER_LIBRARY || is_host_binding(symbol))
+        return false;
+    const plr_binding *base =
+        plr_binding_find(l, plr_scope_of(l, symbol->scope->stage, PLR_SCOPE_BASE(l)), symbol->gid);
+    return base && !base->weak;
+}
+
 static plr_binding *find_meaning(const plr_linking *l, const plr_unit *unit, uint32_t gid) {
     const plr_scope *scope = unit->scope;
     const plr_scope *scopes = l->scopes[scope->stage];
     plr_binding *own = find_own(l, unit, gid), *symbol = strong(own);
     const plr_scope *library = &scopes[PLR_SCOPE_LIBRARY(l)], *base = &scopes[PLR_SCOPE_BASE(l)];
+    if (symbol && scope == library && is_host_binding(symbol)) {
+        plr_binding *again = strong(plr_binding_find(l, base, gid));
+        return again ? again : symbol; /* what the base declares as well is the same */
+    }
     if (symbol)
         return symbol;
     if (is_effect(l, scope)) {
@@ -535,6 +575,10 @@ const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *leng
                 name_variant(l, symbol, ident);
             else
                 symbol->text = effect_name(l, symbol->scope->owner, ident, 0, &symbol->length);
+        } else if (is_hidden_by_base(l, symbol)) {
+            symbol->text =
+                plr_arena_format(l->pass, "plr_lib_%.*s", (int)ident->length, ident->text);
+            symbol->length = ident->length + 8;
         } else if (since && !symbol->macro) {
             symbol->text = plr_arena_format(l->pass, "plr_%.*s", (int)ident->length, ident->text);
             symbol->length = ident->length + 4;

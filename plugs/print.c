@@ -92,6 +92,13 @@ static void begin_token(plr_printer *p, const plr_token *token) {
 static void end_token(plr_printer *p, const plr_token *token) {
     p->last = token->offset + token->length;
     p->before = token->kind;
+    p->last_token = (uint32_t)(token - p->unit->lexed->tokens.items);
+}
+
+/* The text of a token, where a NUL would end the program's. */
+static const char *printable_text(const plr_printer *p, const plr_token *token, size_t *length) {
+    const char *text = plr_token_text(p->unit->lexed, token, length);
+    return token->kind == PLR_T_OTHER && *text == '\0' ? "?" : text;
 }
 
 /* A token as it is. */
@@ -99,9 +106,7 @@ static void copy_token(plr_printer *p, const plr_token *token) {
     begin_token(p, token);
     if (token->flags & PLR_TF_SPLICED || token->kind == PLR_T_OTHER) {
         size_t length;
-        const char *text = plr_token_text(p->unit->lexed, token, &length);
-        if (token->kind == PLR_T_OTHER && *text == '\0')
-            text = "?"; /* a NUL would end the program's text */
+        const char *text = printable_text(p, token, &length);
         p->end = token->offset;
         flush(p);
         add_run(p, p->unit->number, token->offset | PLR_RUN_FIXED);
@@ -307,9 +312,17 @@ static uint32_t print_ident(plr_printer *p, uint32_t token) {
         drop_token(p, t);
         return token + 1;
     }
+    plr_binding *symbol = p->unit->refs[t->value];
+    if (plr_is_hidden_local(p->l, p->unit, t, symbol)) {
+        const plr_ident *ident = &p->unit->lexed->idents.items[t->value];
+        const char *text =
+            plr_arena_format(p->l->pass, "plr%u_%.*s", (unsigned)p->unit->scope->owner,
+                             (int)ident->length, ident->text);
+        replace_token(p, t, text, strlen(text));
+        return token + 1;
+    }
     if (action == PLR_ACTION_SPECIAL)
         return print_special(p, token);
-    plr_binding *symbol = p->unit->refs[t->value];
     bool plain =
         t->flags & PLR_TF_PARAM ||
         (t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL) && !(symbol && symbol->macro));
@@ -396,7 +409,7 @@ static void print_condition(plr_printer *p, const plr_directive *directive) {
         }
         if (!next) {
             size_t size;
-            const char *text = plr_token_text(p->unit->lexed, token, &size);
+            const char *text = printable_text(p, token, &size);
             const plr_token *before = token - 1;
             if (i == directive->token + 1 || before->offset + before->length != token->offset)
                 put(p, " ", 1);
@@ -553,6 +566,28 @@ static void print_calls(plr_printer *p, plr_socket *socket, const char *head, co
     p->before = ';';
 }
 
+typedef enum behind {
+    BEHIND_STATEMENT,
+    BEHIND_HEADER, /* if (x), else, do, ...: the plug is, or begins, the statement */
+    BEHIND_EXPRESSION
+} behind;
+
+static behind stands_behind(const plr_printer *p) {
+    const plr_token *tokens = p->unit->lexed->tokens.items;
+    uint32_t last = p->last_token;
+    if (p->before == ';' || p->before == '{' || p->before == '}' || p->before == ':')
+        return BEHIND_STATEMENT;
+    if (p->before == ')')
+        last = tokens[last].kind == ')' && tokens[last].value != PLR_NONE && tokens[last].value > 0
+                   ? tokens[last].value - 1
+                   : last;
+    uint16_t word = tokens[last].kind == PLR_T_IDENT ? plr_token_ident(p->unit, last)->word : 0;
+    bool header = p->before == ')' ? word == PLR_WORD_if || word == PLR_WORD_for ||
+                                         word == PLR_WORD_while || word == PLR_WORD_switch
+                                   : word == PLR_WORD_else || word == PLR_WORD_do;
+    return header ? BEHIND_HEADER : BEHIND_EXPRESSION;
+}
+
 /* The calls of a plug; behind `if (x)`, `else` and the like they are one statement with what
  * follows. Returns the token to go on with. */
 static uint32_t print_plug(plr_printer *p, uint32_t at) {
@@ -561,15 +596,22 @@ static uint32_t print_plug(plr_printer *p, uint32_t at) {
     plr_socket *socket = p->unit->sockets[lexed->tokens.items[at].value];
     if (!socket || socket->calls.count == 0)
         return plug->end;
-    if (p->before != ')' && p->before != PLR_T_IDENT) {
+    if (stands_behind(p) == BEHIND_STATEMENT || p->inside) {
         print_calls(p, socket, "", "");
         p->last = plug->offset;
+        return plug->end;
+    }
+    p->last = plug->offset;
+    if (stands_behind(p) == BEHIND_EXPRESSION) {
+        p->inside = socket; /* the calls come when the statement ends */
+        p->inside_of = ';';
         return plug->end;
     }
     uint32_t next = plr_active(lexed, p->unit->activity, plug->end);
     uint8_t follows = lexed->tokens.items[next].kind;
     if (follows == '{') {
         p->inside = socket;
+        p->inside_of = '{';
     } else if (follows == ';') {
         print_calls(p, socket, "{ ", " }");
         p->last = lexed->tokens.items[next].offset + 1;
@@ -594,7 +636,8 @@ static void put_tokens(plr_printer *p, uint32_t first, uint32_t end) {
         const plr_token *token = &tokens[i];
         uint32_t from = i;
         if (token->kind == PLR_T_IDENT) {
-            if (unit->actions[token->value] == PLR_ACTION_COPY && !(token->flags & PLR_TF_DROP))
+            if (unit->actions[token->value] == PLR_ACTION_COPY &&
+                !(token->flags & (PLR_TF_DROP | PLR_TF_LOCAL)))
                 copy_token(p, token), i++;
             else
                 i = print_ident(p, i);
@@ -612,7 +655,7 @@ static void put_tokens(plr_printer *p, uint32_t first, uint32_t end) {
         } else {
             copy_token(p, token);
             i++;
-            if (p->inside && token->kind == '{') {
+            if (p->inside && token->kind == p->inside_of) {
                 plr_socket *socket = p->inside;
                 p->inside = NULL;
                 print_calls(p, socket, "", "");

@@ -38,7 +38,9 @@ typedef struct plr_printer {
     bool fresh;          /* nothing of the range was printed yet */
     bool broken;         /* text was skipped since the token before */
     uint8_t before;      /* kind of the token before */
-    plr_socket *inside;  /* a plug before a block, whose calls go into it */
+    uint32_t last_token; /* the token before */
+    plr_socket *inside;  /* a plug whose calls come after the next token of kind inside_of */
+    uint8_t inside_of;
     plr_closer closers[32];
     unsigned closer_count;
 } plr_printer;

@@ -179,6 +179,8 @@ static spelling word_spelling(const char *word, size_t length) {
         if (entry->kinds & (PLR_WORD_IS_VARIABLE | PLR_WORD_IS_OUTPUT) &&
             strlen(entry->replacement) == length && memcmp(entry->replacement, word, length) == 0)
             return (spelling){entry->text, entry->length};
+        if (own && length > 8 && memcmp(word, "plr_lib_", 8) == 0)
+            return (spelling){word + 8, length - 8};
         if (own && entry->kinds & PLR_WORD_IS_SINCE &&
             same_text(entry->text, entry->length, word + 4, length - 4))
             return (spelling){entry->text, entry->length};

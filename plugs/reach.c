@@ -79,7 +79,8 @@ static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
     if (symbol) {
         if (symbol->stamp == l->stamp)
             return;
-        if (!symbol->macro && t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL))
+        if ((!symbol->macro && t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL)) ||
+            plr_is_hidden_local(l, unit, t, symbol))
             return;
         symbol->stamp = l->stamp;
         add_edge(l, node, symbol, NULL);

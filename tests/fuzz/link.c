@@ -85,7 +85,7 @@ static void look_around(const plr_program *program) {
         if (text && strlen(text) != length)
             abort();
         for (uint32_t line = 1; line <= plr_program_lines(program, (plr_stage)s); line++)
-            for (uint32_t column = 0; column < 24; column++) {
+            for (uint32_t column = 0; column < 24; column += 7) {
                 plr_mapped mapped;
                 if (!plr_program_map(program, (plr_stage)s, line, column, &mapped))
                     abort();

@@ -363,7 +363,47 @@ static void test_blocks(void) {
     CHECK_SILENT();
 }
 
+/* A base that has a library's name for itself. */
+static void test_base_hides_library(void) {
+    begin();
+    base("float inner(float x) { return x * 3.0; }\nuniform float plugray_Time;\n"
+         "#define weight 4.0\n" BASE);
+    library("float inner(float x) { return x * 2.0; }\nuniform float plugray_Time;\n"
+            "float outer(float x) { return inner(x) * plugray_Time; }\n");
+    effect("void PLUG_change(inout vec4 x) { float weight = 0.5; x *= outer(1.0) + inner(2.0) * "
+           "weight; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "{ return plr_lib_inner(x) * plugray_Time; }");
+    CHECK_HAS(r->fragment, "float plr0_weight = 0.5; x *= outer(1.0) + inner(2.0) * plr0_weight;");
+    CHECK_INT(occurrences(r->fragment, "uniform float plugray_Time;"), 1);
+    CHECK_SILENT();
+}
+
+/* A complete shader of several units, each of which declares what it uses. */
+static void test_base_units(void) {
+    begin();
+    base("uniform highp mat3 castle_NormalMatrix;\nfloat half_of(float x) { return x * 0.5; }\n");
+    base("uniform mat3 castle_NormalMatrix;\nfloat half_of(float x);\nout vec4 c;\n"
+         "void main() { c = vec4(half_of(castle_NormalMatrix[0][0])); }\n");
+    link_valid();
+    CHECK_SILENT();
+}
+
+static void test_library_struct(void) {
+    begin();
+    base(BASE);
+    library("struct MaterialInfo { vec3 a; };\nfloat shine(MaterialInfo m) { return m.a.x; }\n");
+    effect("struct MaterialInfo { vec3 a; };\nfloat shine(const in MaterialInfo m);\n" USE(
+        "shine(MaterialInfo(x.rgb))"));
+    const linked *r = link_valid();
+    CHECK_INT(occurrences(r->fragment, "struct "), 1);
+    CHECK_SILENT();
+}
+
 int main(void) {
+    test_base_hides_library();
+    test_base_units();
+    test_library_struct();
     test_isolation();
     test_same_effect_twice();
     test_members_and_keys();

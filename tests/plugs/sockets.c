@@ -197,6 +197,17 @@ static void test_places(void) {
     CHECK_SILENT();
 }
 
+/* A plug in the middle of a statement is called at its end. */
+static void test_inside_statement(void) {
+    begin();
+    base("out vec4 c;\nvoid main() {\n  c = vec4(1.0) /* PLUG: change (c) */;\n"
+         "  c = c + vec4(length(c)) /* PLUG: change (c) */ * 2.0; c.a = 1.0;\n}\n");
+    effect("void PLUG_change(inout vec4 x) { x.r *= 0.5; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "  c = vec4(1.0) ;\n  plr0_change(c);\n  c = c + vec4(length(c))");
+    CHECK_ORDER(r->fragment, "* 2.0;\n  plr0_change(c);\n", "c.a = 1.0;");
+}
+
 static void test_direct_call(void) {
     begin();
     base(BASE);
@@ -405,6 +416,7 @@ int main(void) {
     test_later_units_only();
     test_many_functions();
     test_places();
+    test_inside_statement();
     test_direct_call();
     test_builtin_first();
     test_instances();
