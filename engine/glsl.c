@@ -196,7 +196,8 @@ bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, u
                   glslang_program_map_io(program);
     }
     if (counted) {
-        glslang_spv_options_t options = {.strip_debug_info = true};
+        /* only the passes for size inline functions and drop what is dead */
+        glslang_spv_options_t options = {.strip_debug_info = true, .optimize_size = true};
         glslang_program_SPIRV_generate_with_options(program, stages[stage], &options);
         size_t size = glslang_program_SPIRV_get_size(program);
         count_words(glslang_program_SPIRV_get_ptr(program), size, instructions, fetches);
