@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """The command line: help, versions, wrong usage: usage.py PLUGRAY"""
 
+import os
+import pty
+import subprocess
 import sys
+import time
 
 from command import Command
 from tap import check, check_equal, done
@@ -65,4 +69,25 @@ for option in ("--error", "--time", "--frames", "--fps", "--pick"):
                    stderr=f"{option} is not in this version")
 check_equal(sorted(path.name for path in plugray.folder.iterdir()), ["base.frag", "box.x3dv"],
             "wrong usage writes no file")
+
+# ---- progress
+
+
+def read_slowly(stderr):
+    """Runs check on standard input that comes after more than a second."""
+    with subprocess.Popen([plugray.program, "check", "-"], stdin=subprocess.PIPE, stderr=stderr) as process:
+        time.sleep(1.6)
+        process.stdin.write(plugray.read("box.x3dv").encode())
+        process.stdin.close()
+        return process.wait(), process.stderr.read() if process.stderr else b""
+
+
+check_equal(read_slowly(subprocess.PIPE), (0, b""), "no progress where standard error is no terminal")
+ours, theirs = pty.openpty()
+status, _ = read_slowly(theirs)
+os.close(theirs)
+shown = os.read(ours, 4096)
+os.close(ours)
+check(status == 0 and b"plugray: reading, 1 s" in shown, "progress on a terminal after a second", shown)
+check(shown.endswith(b"\r\x1b[K"), "the line is taken away at the end", shown)
 done()
