@@ -190,23 +190,30 @@ static void complete_colours(reader *r) {
     r->count = r->capacity = colours * 4;
 }
 
-/* Whether a word is next that is none of the node's fields: it stands where a number should. */
+static bool is_field_next(reader *r) {
+    x3d_word word;
+    return r->desc->owner && x3d_lexer_peek_word(r->lexer, &word) &&
+           x3d_field_index(r->scene, r->desc->owner, word.text, word.length,
+                           x3d_lexer_place(r->lexer)) != SIZE_MAX;
+}
+
+/* Whether a word is next that stands where a number should: in Classic VRML it may be the
+ * misspelled name of the next field, too, but that has a value behind it. Then reports and passes
+ * it. */
 static bool word_for_number(reader *r) {
     x3d_word word;
-    const plr_node *owner = r->desc->owner;
     x3d_lexer *lexer = r->lexer;
-    if (!x3d_lexer_peek_word(lexer, &word))
-        return false;
-    if (!r->desc->xml && !owner)
-        return false;
-    if (!r->desc->xml && x3d_field_index(r->scene, owner, word.text, word.length,
-                                         x3d_lexer_place(lexer)) != SIZE_MAX)
+    if (!x3d_lexer_peek_word(lexer, &word) || (!r->desc->xml && is_field_next(r)))
         return false;
     lexer->at += word.length;
-    if (r->desc->xml || x3d_starts_number(x3d_lexer_next(lexer)))
-        return fail(r, word.at, expectation(r->desc->type)), true;
-    lexer->at = word.at; /* more like the misspelled name of the next field */
-    return false;
+    int next = x3d_lexer_next(lexer);
+    bool passed = r->desc->xml || next < 0 || next == '}' || next == ']' ||
+                  x3d_starts_number(next) || is_field_next(r);
+    if (passed)
+        fail(r, word.at, expectation(r->desc->type));
+    else
+        lexer->at = word.at;
+    return passed;
 }
 
 static bool too_few(reader *r, size_t expected) {

@@ -216,7 +216,6 @@ EIGHT_PLACES = [  # line, code
 ]
 
 
-@suite.known_fault("a bad value is told twice")
 @suite.case
 def eight_mistakes():
     "check reports all mistakes of a scene, each at its own line"
@@ -228,7 +227,6 @@ def eight_mistakes():
                     {name})
 
 
-@suite.known_fault("a bad value is told twice")
 @suite.case
 def eight_mistakes_drawn():
     "render reports the same and draws what is left"
@@ -238,7 +236,6 @@ def eight_mistakes_drawn():
     suite.check("drawn", float(result.output.split()[3]) == 1, result.output)
 
 
-@suite.known_fault("a bad value is told twice")
 @suite.case
 def machine_formats():
     "check --format json and sarif say the same places"

@@ -52,6 +52,16 @@ static void test_values(void) {
                       "3:20 error bad-value\n");
     check_only_faults("a word in a list", CLASSIC("Coordinate { point [ 0 0 zero ] fog 1 }"),
                       "3:26 error bad-value\n3:33 warning unknown-field\n");
+    check_only_faults("a word for the last number", CLASSIC("Material { diffuseColor 1 0 zero }"),
+                      "3:29 error bad-value\n");
+    check_only_faults("a word for a number, then a field",
+                      CLASSIC("Material { diffuseColor 1 zero shininess 2 }"),
+                      "3:27 error bad-value\n3:42 warning bad-range\n");
+    check_only_faults(
+        "a misspelled field after too few numbers",
+        CLASSIC("ImageTexture3D { repeatS TRUE } Material { diffuseColor 1 0 shinines "
+                "TRUE }"),
+        "3:57 error bad-value\n3:61 warning unknown-field\n");
     check_only_faults("fraction for a whole number", CLASSIC("SpatialGeometry { }"),
                       "3:1 warning unknown-node\n");
     check_only_faults("whole number expected", CLASSIC("Switch { whichChoice 1.5 }"),
