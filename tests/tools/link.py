@@ -158,6 +158,14 @@ check("densty" not in fault.stdout and "amount" in fault.stdout, "... leaves out
 check("plr0_" not in fault.stderr and "plr1_" not in fault.stderr, "... and names things as the author does")
 compiles(fault.stdout, "frag")
 plugray.expect(0, "link", "base.frag", "tint.frag", "--validate", "--glsl", "450", "--keep-all")
+plugray.write("marked.frag", b"\xef\xbb\xbfvoid PLUG_shade(inout vec4 color, int more) { }\n")
+fault = plugray.expect(1, "link", "base.frag", "marked.frag", stderr="[plug-arity]")
+check("\n    void PLUG_shade(inout vec4 color, int more) { }\n         ^\n" in fault.stderr,
+      "the caret stands right behind a byte-order mark", fault.stderr)
+plugray.write("tabs.frag", "\tvoid /* ä */ PLUG_shade(inout vec4 color, int more) { }\n")
+fault = plugray.expect(1, "link", "base.frag", "tabs.frag", stderr="tabs.frag:1:16: error: ")
+check("\n    \t             ^\n" in fault.stderr, "... and behind tabs and letters of several bytes",
+      fault.stderr)
 missing = plugray.expect(1, "link", "base.frag", "nowhere.frag", "tint.frag", stderr="[missing-file]")
 check_equal("amount" in missing.stdout, True, "a missing effect leaves the others")
 plugray.expect(1, "link", "nowhere.frag", stderr="nowhere.frag:1:1: error: ")

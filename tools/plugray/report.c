@@ -62,6 +62,11 @@ static bool is_continuation(char byte) {
 
 static void put_caret(FILE *out, const char *line, size_t length, uint32_t column) {
     size_t at = column ? column - 1 : 0, first = 0, last = length;
+    if (length >= 3 && memcmp(line, "\xef\xbb\xbf", 3) == 0) { /* a byte-order mark has no width */
+        line += 3;
+        last = length -= 3;
+        at = at > 3 ? at - 3 : 0;
+    }
     if (at > length)
         at = length;
     if (length > LINE_SHOWN && at > LINE_BEFORE)
