@@ -277,15 +277,30 @@ static uint8_t read_header(cutter *c, header *h) {
     }
 }
 
+/* The parameters between parentheses, as far as their text is active. */
+static uint16_t count_parameters(const cutter *c, uint32_t open, uint32_t close) {
+    if (!c->activity)
+        return c->tokens[open].count;
+    uint32_t count = 0, depth = 0, words = 0;
+    bool is_void = false;
+    for (uint32_t i = plr_active(c->lexed, c->activity, open + 1); i < close;
+         i = plr_active(c->lexed, c->activity, i + 1)) {
+        uint8_t kind = c->tokens[i].kind;
+        depth += kind == '(' || kind == '[';
+        depth -= (kind == ')' || kind == ']') && depth > 0;
+        count += kind == ',' && depth == 0;
+        is_void = words++ == 0 && word_at(c, i) == PLR_WORD_void;
+    }
+    count += words > 0 && !is_void;
+    return (uint16_t)(count < UINT16_MAX ? count : UINT16_MAX);
+}
+
 static plr_name function_name(const cutter *c, const header *h, uint32_t open, uint32_t close) {
-    uint32_t type = h->name ? h->name - 1 : 0;
-    (void)close;
     return (plr_name){.token = h->name,
                       .kind = PLR_ITEM_FUNCTION,
-                      .parameters = c->tokens[open].count,
+                      .parameters = count_parameters(c, open, close),
                       .open = open,
-                      .close = close,
-                      .type = type};
+                      .close = close};
 }
 
 static const char body_open[] = "the body of this function is never closed";
@@ -447,7 +462,8 @@ static void cut_kept(cutter *c, const header *h, uint32_t names_before) {
     pass_unknown(c);
     if (c->at == h->first) /* nothing else can take it */
         c->at++;
-    end_item(c, (plr_item){.kind = PLR_ITEM_KEPT, .first = h->first, .end = c->at}, names_before);
+    uint8_t kind = h->is_precision ? PLR_ITEM_PRECISION : PLR_ITEM_KEPT;
+    end_item(c, (plr_item){.kind = kind, .first = h->first, .end = c->at}, names_before);
 }
 
 /* A call at file scope: a macro that stands for declarations. */

@@ -12,6 +12,7 @@ typedef enum plr_item_kind {
     PLR_ITEM_STRUCT,      /* with the variables declared behind it, if any */
     PLR_ITEM_BLOCK,       /* an interface block */
     PLR_ITEM_MACRO,       /* #define and #undef */
+    PLR_ITEM_PRECISION,   /* a default precision */
     PLR_ITEM_GROUP,       /* a conditional that cannot be evaluated, with all its branches */
     PLR_ITEM_DECLARATIONS /* PLUG-DECLARATIONS */
 } plr_item_kind;

@@ -87,6 +87,8 @@ typedef struct plr_function {
     uint32_t length;
     uint32_t effect;
     bool placed;
+    const plr_item *item;
+    struct plr_function *twin;      /* the same in another branch of a kept conditional */
     struct plr_function *next;      /* in its unit */
     struct plr_function *next_same; /* of the same name in the effect and stage */
 } plr_function;

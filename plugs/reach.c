@@ -131,8 +131,10 @@ static void reach_range(plr_linking *l, plr_node *node, uint32_t first, uint32_t
 }
 
 /* Items that are there even if nothing names them. */
-static bool is_root(const plr_node *node) {
+static bool is_root(const plr_linking *l, const plr_node *node) {
     switch (node->item->kind) {
+    case PLR_ITEM_PRECISION: /* would reach beyond the effect; on ES everything is highp */
+        return node->unit->scope->owner == PLR_OWNER_BASE && l->desc->glsl != PLR_GLSL_300ES;
     case PLR_ITEM_KEPT:
     case PLR_ITEM_GROUP:
         return true;
@@ -151,9 +153,10 @@ static void reach_roots(plr_linking *l, plr_scope *scope, bool all) {
     for (uint32_t u = 0; u < scope->unit_count; u++) {
         const plr_unit *unit = &scope->units[u];
         for (size_t i = 0; unit->nodes && i < unit->cut->items.count; i++)
-            if (is_root(&unit->nodes[i]) ||
-                (all && (unit->nodes[i].item->kind != PLR_ITEM_PROTOTYPE ||
-                         (unit->nodes[i].symbol && unit->nodes[i].symbol->weak))))
+            if (is_root(l, &unit->nodes[i]) ||
+                (all && unit->nodes[i].item->kind != PLR_ITEM_PRECISION &&
+                 (unit->nodes[i].item->kind != PLR_ITEM_PROTOTYPE ||
+                  (unit->nodes[i].symbol && unit->nodes[i].symbol->weak))))
                 reach_node(l, &unit->nodes[i]);
     }
 }

@@ -43,7 +43,19 @@ void plr_add_sockets(plr_linking *l, plr_unit *unit) {
 /* ---- Functions ---------------------------------------------------------------------------------
  */
 
-static bool add_function(plr_linking *l, plr_unit *unit, plr_node *node, const plr_name *name) {
+/* One function in several branches of a conditional that is kept: only one of them will be. */
+static plr_function *find_twin(plr_function *first, const plr_function *function) {
+    unsigned looked = 0;
+    if (function->item->kind != PLR_ITEM_GROUP)
+        return NULL;
+    for (plr_function *f = first; f != function && looked < 64; f = f->next, looked++)
+        if (f->gid == function->gid && f->name->parameters == function->name->parameters)
+            return f->twin ? f->twin : f;
+    return NULL;
+}
+
+static bool add_function(plr_linking *l, plr_unit *unit, const plr_item *item, const plr_name *name,
+                         plr_function **first) {
     const plr_ident *ident = plr_token_ident(unit, name->token);
     uint16_t type = PLR_WORD_NONE;
     if (name->type != PLR_NONE && unit->lexed->tokens.items[name->type].kind == PLR_T_IDENT)
@@ -55,7 +67,7 @@ static bool add_function(plr_linking *l, plr_unit *unit, plr_node *node, const p
         return false;
     }
     plr_function *function = PLR_NEW(l->pass, plr_function);
-    *function = (plr_function){.node = node, .name = name, .effect = unit->scope->owner};
+    *function = (plr_function){.item = item, .name = name, .effect = unit->scope->owner};
     function->gid = plr_token_gid(unit, name->token);
     function->plug = plr_gid(l, ident->text + 5, ident->length - 5);
     if (unit->last_function)
@@ -63,6 +75,9 @@ static bool add_function(plr_linking *l, plr_unit *unit, plr_node *node, const p
     else
         unit->functions = function;
     unit->last_function = function;
+    if (!*first || (*first)->item != item)
+        *first = function;
+    function->twin = find_twin(*first, function);
     return true;
 }
 
@@ -70,30 +85,18 @@ bool plr_find_functions(plr_linking *l, plr_scope *scope) {
     bool good = true;
     for (uint32_t u = 0; u < scope->unit_count; u++) {
         plr_unit *unit = &scope->units[u];
+        plr_function *first = NULL; /* of the item at hand */
         for (size_t i = 0; unit->cut && i < unit->cut->items.count; i++) {
             const plr_item *item = &unit->cut->items.items[i];
             for (uint32_t n = 0; n < item->name_count; n++) {
                 const plr_name *name = &unit->cut->names.items[item->names + n];
                 if (name->kind == PLR_ITEM_FUNCTION &&
                     plr_token_ident(unit, name->token)->flags & PLR_IF_PLUG)
-                    good &= add_function(l, unit, NULL, name);
+                    good &= add_function(l, unit, item, name, &first);
             }
         }
     }
     return good;
-}
-
-static plr_node *node_of(plr_unit *unit, const plr_name *name) {
-    size_t low = 0, high = unit->cut->items.count;
-    uint32_t index = (uint32_t)(name - unit->cut->names.items);
-    while (high - low > 1) { /* names are in the order of their items */
-        size_t middle = low + (high - low) / 2;
-        if (unit->cut->items.items[middle].names <= index)
-            low = middle;
-        else
-            high = middle;
-    }
-    return &unit->nodes[low];
 }
 
 /* plr3_plug, plr3_plug_2, ...: none that the effect declares otherwise. */
@@ -125,9 +128,14 @@ void plr_name_functions(plr_linking *l, plr_scope *scope) {
     for (uint32_t u = 0; u < scope->unit_count; u++) {
         plr_unit *unit = &scope->units[u];
         for (plr_function *f = unit->functions; f; f = f->next) {
-            f->node = node_of(unit, f->name);
+            f->node = &unit->nodes[f->item - unit->cut->items.items];
             if (!f->node->function)
                 f->node->function = f;
+            if (f->twin) {
+                f->text = f->twin->text;
+                f->length = f->twin->length;
+                continue;
+            }
             void **slot =
                 plr_table_put(l->pass, &l->functions, (uint64_t)scope->number << 32 | f->gid);
             if (!*slot) {
@@ -221,6 +229,10 @@ static void say_arity(plr_linking *l, const plr_unit *unit, const plr_function *
 
 /* Finds the plugs of one function. False: there are some, and it fits none. */
 static bool place_function(plr_linking *l, plr_unit *unit, plr_function *function) {
+    if (function->twin) {
+        function->placed = true;
+        return true;
+    }
     const plr_sockets *sockets = sockets_in_reach(l, function, unit->scope->stage);
     size_t offered = 0, called = 0;
     for (size_t i = 0; sockets && i < sockets->count; i++) {

@@ -126,7 +126,12 @@ typedef struct plr_link_desc {
 typedef struct plr_program plr_program;
 
 /* Links. Faulty effects are left out and reported; the rest is linked. Returns NULL only if nothing
- * can be linked at all: no memory, a limit, a fault in the base (reported in `diags`, may be NULL). */
+ * can be linked at all: no memory, a limit, a fault in the base (reported in `diags`, may be NULL).
+ * The description may go afterwards, but the sources must live as long as the program.
+ *
+ * Conditionals see, besides the macros given: __VERSION__, GL_ES or GL_core_profile, and one of
+ * PLUGRAY_VERTEX, PLUGRAY_GEOMETRY, PLUGRAY_FRAGMENT; PLUG_USED (plug) is 1 where a function is called
+ * at that plug, READS (member) where `.member` occurs in reached text. */
 PLR_API plr_program *plr_link(const plr_link_desc *desc, plr_diags *diags);
 PLR_API void plr_program_destroy(plr_program **program);
 

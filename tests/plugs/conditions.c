@@ -96,6 +96,20 @@ static void test_kept(void) {
     CHECK_SILENT();
 }
 
+/* A function in each branch of a conditional that is kept is one function. */
+static void test_twins(void) {
+    begin();
+    base(BASE);
+    effect("#ifdef GL_ARB_never\nvoid PLUG_change(inout vec4 x) { x.r = 0.25; }\n#else\n"
+           "void PLUG_change(inout vec4 x) { x.g = 0.25; }\n#endif\n");
+    effect("void PLUG_change(inout vec4 x\n#ifdef NEVER\n, float y\n#endif\n) { x.b = 0.25; }\n");
+    const linked *r = link_valid();
+    CHECK_INT(occurrences(r->fragment, "  plr0_change(c);"), 1);
+    CHECK_LACKS(r->fragment, "change_2");
+    CHECK_HAS(r->fragment, "  plr1_change(c);");
+    CHECK_SILENT();
+}
+
 static void test_macros_across_units(void) {
     begin();
     base(BASE);
@@ -213,6 +227,7 @@ int main(void) {
     test_expressions();
     test_effect_defines();
     test_kept();
+    test_twins();
     test_macros_across_units();
     test_used();
     test_versions();

@@ -180,7 +180,7 @@ void PLUG_change(inout vec4 c) { c.g = 7.0; }
     r.called("change", [0, 0])
     r.has("3 \\. 0")
     r.has("7 \\. 0")
-    r.lacks("[456] \\. 0|#")
+    r.lacks(r"\b[456] \. 0|# (if|el|endif)")
 
 
 @case
@@ -208,7 +208,7 @@ void PLUG_change(inout vec4 c
 """)
     r.sound()
     r.called("change", [0])
-    r.lacks("nothing|more|#")
+    r.lacks("nothing|more|# (if|el|endif)")
 
 
 @case
@@ -301,7 +301,7 @@ void main() {
 }"""
     r = link(RED, RED + "void PLUG_each(inout vec4 c, int i) { c.b += float(i); }\n", base=base)
     r.sound()
-    r.called("change", [0, 1] * 11)
+    r.called("change", [0, 1] * 12)
     r.check("plr1_each ( c , i ) ;" in r.body("light"), "the function has its call")
 
 
