@@ -12,6 +12,6 @@ enum {
 /* The reading of the scene's volumes: `asked` if not 0, else that of 2005 where a volume or one of
  * its styles has a node or field that only the proposal has. One line of information says which,
  * where it is not the final standard's without being asked for. */
-int plr_dialect(const plr_flat *flat, int asked, plr_diags *diags);
+int plr_dialect(plr_scene *scene, const plr_flat *flat, int asked, plr_diags *diags);
 
 #endif

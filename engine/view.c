@@ -69,7 +69,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
                       view->desc.viewpoint);
         return false;
     }
-    view->desc.dialect = plr_dialect(&view->flat, view->desc.dialect, diags);
+    view->desc.dialect = plr_dialect(view->scene, &view->flat, view->desc.dialect, diags);
     plr_background_prepare(view);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);

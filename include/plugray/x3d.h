@@ -120,10 +120,7 @@ typedef enum plr_access {
 } plr_access;
 
 /* Matrices are kept in the order of the file, which gives row after row, the top row first (ISO/IEC
- * 19776-1 and 19776-2, 5.9 to 5.12). They multiply row vectors: the translation of an SFMatrix4f is
- * its fourth row (ISO/IEC 19775-1, 5.3). So the numbers as they are, taken column after column as
- * GL takes them, are the matrix that multiplies column vectors: glUniformMatrix4fv without
- * transposing. */
+ * 19776-1 and 19776-2, 5.9 to 5.12). GL takes columns: hand them over with transposing. */
 
 /* One field of one node, with its value now. `count` is the number of elements: 1 for SFxxx, except
  * that an SFNode of NULL has 0. SFImage: width, height, components, then the pixels; `count` is
