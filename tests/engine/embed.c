@@ -1,0 +1,127 @@
+/* A host draws a scene into its own framebuffer: pixels in closed form, and its state untouched. */
+#include "tests/tap.h"
+
+#include "engine/state.h"
+#include "engine/view.h"
+
+enum {
+    SIDE = 32,
+    LEFT = 8, /* of the viewport, and its size */
+    WIDTH = 16
+};
+
+/* Opacity 0.5 for each voxel, two voxels along the ray: 3/4 in all, half of the way 1/2. */
+static const char scene_text[] =
+    "#X3D V4.0 utf8\nPROFILE Immersive\nNavigationInfo { headlight FALSE }\n"
+    "VolumeData { dimensions 2 2 2 voxels PixelTexture3D { image [ 1 2 2 2 255 255 255 255 255 255 "
+    "255 255 ] } renderStyle OpacityMapVolumeStyle { transferFunction PixelTexture { image 1 1 4 "
+    "0xff000080 } } }\n";
+
+/* The camera stands at z = 2. */
+static const double camera[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1};
+/* Parallel, distances -4 to 4 from the camera: z = 0, at distance 2, is 0.75 in the depth buffer.
+ */
+static const double projection[16] = {.5, 0, 0, 0, 0, .5, 0, 0, 0, 0, -.25, 0, 0, 0, 0, 1};
+
+typedef struct host {
+    plr_gl gl;
+    GLuint framebuffer, color, depth, texture;
+} host;
+
+static void make_framebuffer(host *h) {
+    const plr_gl *gl = &h->gl;
+    gl->GenFramebuffers(1, &h->framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, h->framebuffer);
+    gl->GenRenderbuffers(1, &h->color);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, h->color);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, SIDE, SIDE);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, h->color);
+    gl->GenRenderbuffers(1, &h->depth);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, h->depth);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, SIDE, SIDE);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, h->depth);
+}
+
+/* Blue everywhere; in the left half something opaque at the depth of z = 0. */
+static void draw_host(host *h) {
+    const plr_gl *gl = &h->gl;
+    gl->ClearColor(0, 0, 1, 1);
+    gl->ClearDepth(1);
+    gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl->Enable(GL_SCISSOR_TEST);
+    gl->Scissor(0, 0, SIDE / 2, SIDE);
+    gl->ClearDepth(0.75);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+/* State that nobody would choose: what is set back carelessly is seen. */
+static void make_odd_state(host *h) {
+    const plr_gl *gl = &h->gl;
+    gl->GenTextures(1, &h->texture);
+    gl->ActiveTexture(GL_TEXTURE0 + 3);
+    gl->BindTexture(GL_TEXTURE_2D, h->texture);
+    gl->Enable(GL_BLEND);
+    gl->Enable(GL_CULL_FACE);
+    gl->BlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ONE, GL_SRC_ALPHA);
+    gl->CullFace(GL_FRONT);
+    gl->FrontFace(GL_CW);
+    gl->DepthFunc(GL_ALWAYS);
+    gl->ClearColor(0.25f, 0.5f, 0.75f, 1);
+    gl->Viewport(LEFT, LEFT, WIDTH, WIDTH);
+}
+
+static plr_view *make_view(const host *h, plr_engine **engine, plr_scene **scene,
+                           plr_context *context, plr_diags *diags) {
+    (void)h;
+    plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address, .user = context};
+    plr_view_desc view = {.host_depths = true, .step = 0.1};
+    *engine = plr_engine_create(&desc, diags);
+    *scene = plr_scene_parse(scene_text, strlen(scene_text), "embed.x3dv", NULL, diags);
+    return plr_view_create(*engine, *scene, &view, diags);
+}
+
+static void check_pixel(const plr_gl *gl, int x, int y, const double expected[4]) {
+    GLubyte pixel[4];
+    gl->ReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+    for (int i = 0; i < 4; i++)
+        CHECK_NEAR(pixel[i], expected[i] * 255, 1.5);
+}
+
+static void run(plr_context *context) {
+    host h = {.texture = 0};
+    CHECK(plr_gl_load(&h.gl, plr_context_get_proc_address, context) == NULL);
+    plr_diags *diags = plr_diags_create(NULL);
+    plr_engine *engine;
+    plr_scene *scene;
+    plr_view *view = make_view(&h, &engine, &scene, context, diags);
+    CHECK(view != NULL);
+    make_framebuffer(&h);
+    draw_host(&h);
+    make_odd_state(&h);
+    plr_gl_state before, after;
+    plr_gl_state_save(&h.gl, &before);
+    CHECK(plr_view_draw_here(view, projection, camera, diags));
+    plr_gl_state_save(&h.gl, &after);
+    CHECK(memcmp(&before, &after, sizeof before) == 0);
+    CHECK_INT(h.gl.GetError(), GL_NO_ERROR);
+    const double alpha = 128.0 / 255, far = 1 - pow(1 - alpha, 2), half = alpha;
+    check_pixel(&h.gl, 2, 2, (double[]){0, 0, 1, 1});  /* beside the viewport */
+    check_pixel(&h.gl, 9, 16, (double[]){0, 0, 1, 1}); /* beside the volume */
+    check_pixel(&h.gl, 18, 16, (double[]){far, 0, 1 - far, 1});
+    check_pixel(&h.gl, 14, 16, (double[]){half, 0, 1 - half, 1}); /* ends at what the host drew */
+    CHECK_INT(plr_diags_count(diags), 0);
+    plr_view_destroy(&view);
+    plr_scene_destroy(&scene);
+    plr_engine_destroy(&engine);
+    plr_diags_destroy(&diags);
+}
+
+int main(void) {
+    plr_context *context = plr_context_create(PLR_BACKEND_AUTO, NULL);
+    if (!context)
+        TAP_SKIP("a host draws", "there is no GL");
+    else
+        run(context);
+    plr_context_destroy(&context);
+    return tap_done();
+}
