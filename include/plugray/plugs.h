@@ -1,8 +1,8 @@
 /* plugray/plugs.h - the linker: GLSL text in, GLSL text out.
  *
- * It finds functions named PLUG_xxx in effects and the comments "PLUG: xxx (params)" in base shaders
- * and earlier effects, renames, forward-declares and joins them into one program a stage. It knows
- * nothing of GL, X3D, files or time.
+ * It finds functions named PLUG_xxx in effects and the comments "PLUG: xxx (params)" in base
+ * shaders and earlier effects, renames, forward-declares and joins them into one program a stage.
+ * It knows nothing of GL, X3D, files or time.
  *
  * Use: read texts into sources (once; a source is immutable and may serve many links, in many
  * threads), describe base, library and effects by arrays of sources, call plr_link, take the text
@@ -45,11 +45,12 @@ PLR_API plr_stage plr_source_stage(const plr_source *source);
 /* The text as given, NUL-terminated; owned by the source. */
 PLR_API const char *plr_source_text(const plr_source *source, size_t *length);
 /* The names of the plugs whose comments stand anywhere in the text, inactive branches included, in
- * order of text, as often as they stand there. A name is not NUL-terminated: `length` is its own. */
+ * order of text, as often as they stand there. A name is not NUL-terminated: `length` is its own.
+ */
 PLR_API size_t plr_source_plug_count(const plr_source *source);
 PLR_API const char *plr_source_plug(const plr_source *source, size_t index, size_t *length);
 
-/* ---- Describing a program --------------------------------------------------------------------- */
+/* ---- Describing a program ------------------------------------------------------------------ */
 
 /* A macro that the host defines; value NULL means 1. */
 typedef struct plr_define {
@@ -71,20 +72,22 @@ typedef struct plr_effect {
     const char *name; /* for messages and maps: a DEF name or a node type; may be NULL */
     const plr_source *const *sources;
     size_t source_count;
-    /* Macros for the conditionals of this effect's units alone. They are evaluated by the linker and
-     * never written to the program; tokens elsewhere are not replaced. */
+    /* Macros for the conditionals of this effect's units alone. They are evaluated by the linker
+     * and never written to the program; tokens elsewhere are not replaced. */
     const plr_define *defines;
     size_t define_count;
-    /* 0: PLR_WHOLE. k: this effect is local to effect k-1 of the list (a light, a texture, a volume;
-     * it must stand earlier): it uses the plugs of that effect and of the effects attached to it,
-     * directly or not, and where these have none of the name, those of everything before it. */
+    /* 0: PLR_WHOLE. k: this effect is local to effect k-1 of the list (a light, a texture, a
+     * volume; it must stand earlier): it uses the plugs of that effect and of the effects attached
+     * to it, directly or not, and where these have none of the name, those of everything before it.
+     */
     size_t attached;
-    bool builtin;    /* comes with the host: may be a target, stands before authors' in its place */
-    bool disabled;   /* keeps its number, contributes nothing */
+    bool builtin;  /* comes with the host: may be a target, stands before authors' in its place */
+    bool disabled; /* keeps its number, contributes nothing */
     plr_placement placement;
     const char *target; /* name of a built-in effect; NULL or "": the whole step */
     bool only_if_active;
-    plr_place place; /* where the author wrote the effect, for messages about the effect as a whole */
+    plr_place
+        place; /* where the author wrote the effect, for messages about the effect as a whole */
 } plr_effect;
 
 /* A plug that the host knows, for messages: silent where it is inactive, named where the stage is
@@ -115,13 +118,13 @@ typedef struct plr_link_desc {
     const plr_known_plug *known_plugs;
     size_t known_plug_count;
     plr_target_glsl glsl;
-    bool keep_all; /* leave nothing out */
-    size_t max_text; /* bytes of input at most; 0: 64 MiB */
+    bool keep_all;      /* leave nothing out */
+    size_t max_text;    /* bytes of input at most; 0: 64 MiB */
     size_t max_effects; /* 0: 65536 */
     const plr_allocator *allocator;
 } plr_link_desc;
 
-/* ---- The program ------------------------------------------------------------------------------ */
+/* ---- The program --------------------------------------------------------------------------- */
 
 typedef struct plr_program plr_program;
 
@@ -130,8 +133,8 @@ typedef struct plr_program plr_program;
  * The description may go afterwards, but the sources must live as long as the program.
  *
  * Conditionals see, besides the macros given: __VERSION__, GL_ES or GL_core_profile, and one of
- * PLUGRAY_VERTEX, PLUGRAY_GEOMETRY, PLUGRAY_FRAGMENT; PLUG_USED (plug) is 1 where a function is called
- * at that plug, READS (member) where `.member` occurs in reached text. */
+ * PLUGRAY_VERTEX, PLUGRAY_GEOMETRY, PLUGRAY_FRAGMENT; PLUG_USED (plug) is 1 where a function is
+ * called at that plug, READS (member) where `.member` occurs in reached text. */
 PLR_API plr_program *plr_link(const plr_link_desc *desc, plr_diags *diags);
 PLR_API void plr_program_destroy(plr_program **program);
 
@@ -156,8 +159,8 @@ typedef struct plr_mapped {
     plr_place plug_place;
 } plr_mapped;
 
-/* Translates line and column (both from 1; column 0: the first non-blank of the line). False outside
- * the text. */
+/* Translates line and column (both from 1; column 0: the first non-blank of the line). False
+ * outside the text. */
 PLR_API bool plr_program_map(const plr_program *program, plr_stage stage, uint32_t line,
                              uint32_t column, plr_mapped *mapped);
 PLR_API uint32_t plr_program_lines(const plr_program *program, plr_stage stage);
