@@ -47,9 +47,13 @@ static void set_host(plr_linking *l, const char *name, plr_macro *macro) {
     l->hosts[gid] = macro;
 }
 
+void plr_set_version(plr_linking *l) {
+    set_host(l, "__VERSION__", number_macro(l, l->version));
+}
+
 void plr_set_hosts(plr_linking *l) {
     bool es = l->desc->glsl == PLR_GLSL_300ES;
-    set_host(l, "__VERSION__", number_macro(l, l->version));
+    plr_set_version(l);
     set_host(l, es ? "GL_ES" : "GL_core_profile", number_macro(l, 1));
     if (es)
         set_host(l, "GL_es_profile", number_macro(l, 1));

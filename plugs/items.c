@@ -305,6 +305,25 @@ static plr_name function_name(const cutter *c, const header *h, uint32_t open, u
 
 static const char body_open[] = "the body of this function is never closed";
 
+/* Whether the unit defines a macro of that name before. */
+static bool is_macro(const cutter *c, uint32_t token) {
+    for (size_t i = c->cut->names.count; i > 0; i--) {
+        const plr_name *name = &c->cut->names.items[i - 1];
+        if (name->kind == PLR_ITEM_MACRO && c->tokens[name->token].value == c->tokens[token].value)
+            return true;
+    }
+    return false;
+}
+
+/* A macro that stands for the body of a function. */
+static void pass_macro_body(cutter *c, plr_item *item) {
+    item->kind = PLR_ITEM_FUNCTION;
+    item->body = c->at++;
+    settle(c, false, 0);
+    if (c->tokens[c->at].kind == '(')
+        pass_brackets(c, false);
+}
+
 static void cut_function(cutter *c, const header *h, uint32_t names_before) {
     uint32_t open = c->at;
     if (!pass_brackets(c, false)) {
@@ -334,6 +353,8 @@ static void cut_function(cutter *c, const header *h, uint32_t names_before) {
         item.kind = PLR_ITEM_PROTOTYPE;
         if (c->tokens[c->at].kind == ';')
             c->at++;
+        else if (h->words >= 2 && c->tokens[c->at].kind == PLR_T_IDENT && is_macro(c, c->at))
+            pass_macro_body(c, &item);
         else
             item.kind = PLR_ITEM_KEPT; /* two macros in a row, or no GLSL */
     }
@@ -476,11 +497,20 @@ static void cut_macro_call(cutter *c, const header *h, uint32_t names_before) {
     end_item(c, (plr_item){.kind = PLR_ITEM_KEPT, .first = h->first, .end = c->at}, names_before);
 }
 
+/* PLUG_x (...) { ... } without any type: a plug function, if a wrong one. */
+static bool lacks_type(const cutter *c, const header *h) {
+    const plr_token *open = &c->tokens[c->at];
+    return c->lexed->idents.items[c->tokens[h->name].value].flags & PLR_IF_PLUG &&
+           open->value != PLR_NONE &&
+           c->tokens[plr_active(c->lexed, c->activity, open->value + 1)].kind == '{';
+}
+
 static void cut_declaration(cutter *c) {
     header h;
     uint32_t names_before = (uint32_t)c->cut->names.count, kept = c->kept;
     uint8_t kind = read_header(c, &h);
-    bool function = kind == '(' && h.words >= 2 && !h.is_struct && !h.is_precision;
+    bool function = kind == '(' && !h.is_struct && !h.is_precision &&
+                    (h.words >= 2 || (h.words == 1 && lacks_type(c, &h)));
     if (function) {
         cut_function(c, &h, names_before);
     } else if (kind == '(' && h.words == 1 && h.name == h.first) {

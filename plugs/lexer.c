@@ -313,11 +313,8 @@ static bool lex_plug_body(lexer *lx, uint32_t limit, plr_plug *plug) {
     skip_blank(lx, limit);
     if (lx->at >= limit || class_at(lx, lx->at) != C_WORD)
         return false;
-    uint32_t begin = lx->at;
-    while (lx->at < limit && (class_at(lx, lx->at) == C_WORD || class_at(lx, lx->at) == C_DIGIT))
-        lx->at++;
-    uint32_t length = lx->at - begin;
-    plug->name = intern(lx, lx->text + begin, length, plr_hash(lx->text + begin, length));
+    lex_atom(lx, limit);
+    plug->name = lx->out->tokens.items[--lx->out->tokens.count].value;
     plug->lists = (uint32_t)lx->out->lists.count;
     skip_blank(lx, limit);
     plug->text_begin = lx->at;

@@ -102,7 +102,7 @@ static void prepare(plr_linking *l, plr_arena *pass) {
     plr_note_targets(l);
     l->pass = pass;
     plr_make_stages(l);
-    plr_decide_version(l, NULL);
+    plr_decide_version(l);
     plr_set_hosts(l);
     size_t idents = l->idents.count + 1;
     l->used = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
@@ -112,23 +112,34 @@ static void prepare(plr_linking *l, plr_arena *pass) {
     note_questions(l);
 }
 
+static void next_pass(plr_program *program) {
+    jmp_buf *out_of_memory = program->pass.out_of_memory;
+    plr_arena_finish(&program->pass);
+    plr_arena_init(&program->pass, &program->allocator, out_of_memory);
+}
+
 static void run_rounds(plr_program *program) {
     plr_linking *l = &program->linking;
+    bool sure = false; /* of the version: lines in inactive text ask for nothing */
     for (unsigned round = 0;; round++) {
         start_round(l, &program->pass);
         l->all = round >= MAX_ROUNDS;
         plr_make_stages(l);
         plr_make_units(l);
-        plr_decide_version(l, l);
         plr_add_effects(l);
+        plr_say_versions(l);
         if (l->base_fault)
             return;
+        if (!sure && plr_lower_version(l)) {
+            sure = true;
+            next_pass(program);
+            continue;
+        }
+        sure = true;
         plr_reach(l);
         if (!l->dynamic || !l->grown || l->all)
             return;
-        jmp_buf *out_of_memory = program->pass.out_of_memory;
-        plr_arena_finish(&program->pass);
-        plr_arena_init(&program->pass, &program->allocator, out_of_memory);
+        next_pass(program);
     }
 }
 

@@ -241,8 +241,12 @@ uint32_t plr_gid_find(const plr_linking *l, const char *text, size_t length);
 void plr_read_all(plr_linking *l);
 void plr_make_units(plr_linking *l);
 void plr_make_stages(plr_linking *l);
-/* The highest version that is asked for; faults are said if `messages` is not NULL. */
-void plr_decide_version(plr_linking *l, plr_linking *messages);
+/* The highest version that any text asks for. */
+void plr_decide_version(plr_linking *l);
+/* Lowers it to what active text asks for; true if that makes a difference. */
+bool plr_lower_version(plr_linking *l);
+/* Says which #version lines are wrong. */
+void plr_say_versions(plr_linking *l);
 static inline uint32_t plr_token_gid(const plr_unit *unit, uint32_t token) {
     return unit->reading->gids[unit->lexed->tokens.items[token].value];
 }
@@ -261,6 +265,7 @@ static inline plr_scope *plr_scope_of(const plr_linking *l, plr_stage stage, uin
 
 /* condition.c: conditionals. */
 void plr_set_hosts(plr_linking *l);
+void plr_set_version(plr_linking *l);
 void plr_begin_macros(plr_linking *l, const plr_scope *scope);
 void plr_evaluate(plr_linking *l, plr_unit *unit);
 

@@ -187,10 +187,10 @@ static void mark_doubled(marker *m, uint32_t i) {
 
 /* Whether a word that became reserved is a name here: a qualifier stands before another word, a
  * built-in function before a parenthesis. */
-static bool is_name_use(const marker *m, uint32_t i) {
+static bool is_name_use(const marker *m, uint32_t i, uint8_t before) {
     const plr_token *token = &m->tokens[i];
     unsigned kinds = plr_word_get(m->lexed->idents.items[token->value].word)->kinds;
-    uint8_t before = token[-1].kind, next = token[1].kind;
+    uint8_t next = token[1].kind;
     if (!(kinds & PLR_WORD_IS_SINCE) || token->flags & PLR_TF_MEMBER)
         return false;
     if (token->flags & PLR_TF_PLAIN && (before == '(' || next == ')'))
@@ -206,9 +206,12 @@ static bool is_name_use(const marker *m, uint32_t i) {
 static void mark_declared_words(marker *m) {
     plr_lexed *lexed = m->lexed;
     uint32_t end = (uint32_t)lexed->tokens.count - 1;
-    for (uint32_t i = 1; i < end; i++) {
+    uint32_t barrier = 0; /* the token after a directive */
+    for (uint32_t i = 0; i < end; i++) {
         const plr_token *token = &m->tokens[i];
-        if (token->kind != PLR_T_IDENT)
+        if (token->kind == PLR_T_DIRECTIVE)
+            barrier = lexed->directives.items[token->value].end;
+        if (token->kind != PLR_T_IDENT || i == 0)
             continue;
         plr_ident *ident = &lexed->idents.items[token->value];
         if (ident->word == PLR_WORD_NONE)
@@ -219,7 +222,7 @@ static void mark_declared_words(marker *m) {
             (has_kind(lexed, i, PLR_WORD_IS_INOUT) || ident->word == PLR_WORD_const) &&
             (has_kind(lexed, i + 1, PLR_WORD_IS_INOUT) || is_word(lexed, i + 1, PLR_WORD_const)))
             mark_doubled(m, i);
-        if (is_name_use(m, i))
+        if (is_name_use(m, i, i == barrier ? ';' : m->tokens[i - 1].kind))
             ident->flags |= PLR_IF_DECLARED;
     }
 }

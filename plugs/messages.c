@@ -6,6 +6,8 @@
 #include <string.h>
 
 static void say(plr_linking *l, plr_severity severity, plr_code code, plr_place place,
+                const char *format, va_list arguments) PLR_PRINTF(5, 0);
+static void say(plr_linking *l, plr_severity severity, plr_code code, plr_place place,
                 const char *format, va_list arguments) {
     char text[512];
     int length = vsnprintf(text, sizeof text, format, arguments);

@@ -326,38 +326,44 @@ static bool share_host(plr_linking *l, plr_node *node, const plr_name *name, uin
     return false;
 }
 
-static bool declares_struct_like(plr_linking *l, plr_node *node, const plr_scope *other,
-                                 uint32_t gid) {
-    const plr_binding *symbol = plr_binding_find(l, other, gid);
+static plr_binding *struct_like(plr_linking *l, plr_node *node, const plr_scope *other,
+                                uint32_t gid) {
+    plr_binding *symbol = plr_binding_find(l, other, gid);
     if (!symbol || !symbol->definitions)
-        return false;
+        return NULL;
     const plr_definition *d = symbol->definitions;
     if (d->node->item->kind != PLR_ITEM_STRUCT || d->name->inner || d->node->dropped ||
         !same_item(d->node->unit, d->node->item, node->unit, node->item))
-        return false;
+        return NULL;
     /* the types of its members must be shared as well */
     const plr_unit *unit = node->unit;
     for (uint32_t i = node->item->body; i < node->item->end; i++) {
         const plr_token *token = &unit->lexed->tokens.items[i];
-        if (token->kind == PLR_T_IDENT && !(token->flags & PLR_TF_PLAIN) &&
-            find_own(l, unit, unit->reading->gids[token->value]))
-            return false;
+        if (token->kind != PLR_T_IDENT || token->flags & PLR_TF_PLAIN)
+            continue;
+        uint32_t member = unit->reading->gids[token->value];
+        const plr_binding *own = find_own(l, unit, member);
+        if (own && own != find_own(l, d->node->unit, member))
+            return NULL;
     }
-    return true;
+    return symbol;
 }
 
-/* A struct that is spelt as in an effect whose plug this one implements, or in the base or the
- * library. */
-static bool is_shared_struct(plr_linking *l, plr_node *node, uint32_t gid) {
+/* A struct that is spelt as in an effect whose plug this one implements, in the base or in the
+ * library, is that one. */
+static plr_binding *shared_struct(plr_linking *l, plr_node *node, uint32_t gid) {
     const plr_scope *scope = node->unit->scope;
+    plr_binding *symbol = NULL;
     if (node->item->kind != PLR_ITEM_STRUCT || node->item->name_count != 1)
-        return false;
-    for (size_t i = 0; i < scope->providers.count; i++)
-        if (declares_struct_like(l, node, plr_scope_of(l, scope->stage, scope->providers.items[i]),
-                                 gid))
-            return true;
-    return declares_struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_BASE(l)), gid) ||
-           declares_struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_LIBRARY(l)), gid);
+        return NULL;
+    for (size_t i = 0; i < scope->providers.count && !symbol; i++)
+        symbol =
+            struct_like(l, node, plr_scope_of(l, scope->stage, scope->providers.items[i]), gid);
+    if (!symbol)
+        symbol = struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_BASE(l)), gid);
+    if (!symbol)
+        symbol = struct_like(l, node, plr_scope_of(l, scope->stage, PLR_SCOPE_LIBRARY(l)), gid);
+    return symbol;
 }
 
 /* ---- The names of a scope ----------------------------------------------------------------------
@@ -382,8 +388,10 @@ static bool declare_in_effect(plr_linking *l, plr_node *node, const plr_name *na
         refuse(l, unit, name->token, "belongs to plugray");
         return false;
     }
-    if (is_shared_struct(l, node, gid)) {
+    plr_binding *shared = shared_struct(l, node, gid);
+    if (shared) { /* known under this name here too, for those who build on this effect */
         node->dropped = true;
+        *plr_table_put(l->pass, &l->symbols, scope_key(scope->number, gid)) = shared;
         return true;
     }
     declare(l, node, name, gid);

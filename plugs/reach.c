@@ -74,7 +74,7 @@ static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
             return;
     }
     if (action == PLR_ACTION_UNKNOWN)
-        action = plr_resolve(l, unit, t->value);
+        action = (uint8_t)plr_resolve(l, unit, t->value);
     plr_binding *symbol = unit->refs[t->value];
     if (symbol) {
         if (symbol->stamp == l->stamp)
@@ -133,8 +133,8 @@ static void reach_range(plr_linking *l, plr_node *node, uint32_t first, uint32_t
 /* Items that are there even if nothing names them. */
 static bool is_root(const plr_linking *l, const plr_node *node) {
     switch (node->item->kind) {
-    case PLR_ITEM_PRECISION: /* would reach beyond the effect; on ES everything is highp */
-        return node->unit->scope->owner == PLR_OWNER_BASE && l->desc->glsl != PLR_GLSL_300ES;
+    case PLR_ITEM_PRECISION: /* means nothing here, and on ES everything is highp */
+        return l->desc->glsl != PLR_GLSL_300ES;
     case PLR_ITEM_KEPT:
     case PLR_ITEM_GROUP:
         return true;

@@ -99,6 +99,23 @@ bool plr_find_functions(plr_linking *l, plr_scope *scope) {
     return good;
 }
 
+typedef struct same_name {
+    plr_function *first, *last;
+    uint32_t number;
+} same_name;
+
+/* Whether the effect declares the name, or has a plug function that will be called so. */
+static bool is_taken(plr_linking *l, const plr_scope *scope, const char *local, uint32_t number) {
+    uint32_t gid = plr_gid_find(l, local, strlen(local));
+    if (gid != PLR_NONE && plr_binding_find(l, scope, gid))
+        return true;
+    if (number < 2)
+        return false;
+    const char *plug = plr_arena_format(l->pass, "PLUG_%s", local);
+    gid = plr_gid_find(l, plug, strlen(plug));
+    return gid != PLR_NONE && plr_table_get(&l->functions, (uint64_t)scope->number << 32 | gid);
+}
+
 /* plr3_plug, plr3_plug_2, ...: none that the effect declares otherwise. */
 static void name_function(plr_linking *l, plr_scope *scope, plr_function *function,
                           uint32_t *number) {
@@ -112,44 +129,46 @@ static void name_function(plr_linking *l, plr_scope *scope, plr_function *functi
         function->text = text;
         function->length = (uint32_t)strlen(text);
         const char *local = strchr(text, '_') + 1;
-        uint32_t gid = plr_gid_find(l, local, strlen(local));
-        if (gid == PLR_NONE || !plr_binding_find(l, scope, gid))
+        if (!is_taken(l, scope, local, *number))
             break;
     }
     ++*number;
 }
 
-typedef struct same_name {
-    plr_function *first, *last;
-    uint32_t number;
-} same_name;
+/* Lists the functions of one name, so that names can be given. */
+static void register_functions(plr_linking *l, plr_scope *scope, plr_unit *unit) {
+    for (plr_function *f = unit->functions; f; f = f->next) {
+        f->node = &unit->nodes[f->item - unit->cut->items.items];
+        if (!f->node->function)
+            f->node->function = f;
+        if (f->twin)
+            continue;
+        void **slot = plr_table_put(l->pass, &l->functions, (uint64_t)scope->number << 32 | f->gid);
+        if (!*slot) {
+            same_name *fresh = PLR_NEW(l->pass, same_name);
+            *fresh = (same_name){f, NULL, 1};
+            *slot = fresh;
+        }
+        same_name *same = *slot;
+        if (same->last)
+            same->last->next_same = f;
+        same->last = f;
+    }
+}
 
 void plr_name_functions(plr_linking *l, plr_scope *scope) {
-    for (uint32_t u = 0; u < scope->unit_count; u++) {
-        plr_unit *unit = &scope->units[u];
-        for (plr_function *f = unit->functions; f; f = f->next) {
-            f->node = &unit->nodes[f->item - unit->cut->items.items];
-            if (!f->node->function)
-                f->node->function = f;
+    for (uint32_t u = 0; u < scope->unit_count; u++)
+        register_functions(l, scope, &scope->units[u]);
+    for (uint32_t u = 0; u < scope->unit_count; u++)
+        for (plr_function *f = scope->units[u].functions; f; f = f->next) {
             if (f->twin) {
                 f->text = f->twin->text;
                 f->length = f->twin->length;
                 continue;
             }
-            void **slot =
-                plr_table_put(l->pass, &l->functions, (uint64_t)scope->number << 32 | f->gid);
-            if (!*slot) {
-                same_name *fresh = PLR_NEW(l->pass, same_name);
-                *fresh = (same_name){f, NULL, 1};
-                *slot = fresh;
-            }
-            same_name *same = *slot;
-            if (same->last)
-                same->last->next_same = f;
-            same->last = f;
+            same_name *same = plr_table_get(&l->functions, (uint64_t)scope->number << 32 | f->gid);
             name_function(l, scope, f, &same->number);
         }
-    }
 }
 
 size_t plr_direct_functions(plr_linking *l, plr_unit *unit, uint32_t token, plr_function **found,

@@ -177,41 +177,75 @@ static int read_version(const plr_lexed *lexed, const plr_directive *directive) 
     return 0;
 }
 
-static void ask_version(plr_linking *l, const plr_source *source, plr_linking *messages) {
-    const plr_lexed *lexed = &source->lexed;
-    int most = l->desc->glsl == PLR_GLSL_300ES ? 330 : 460;
-    for (size_t i = 0; i < lexed->directives.count; i++) {
-        const plr_directive *directive = &lexed->directives.items[i];
-        if (directive->kind != PLR_D_VERSION)
-            continue;
-        int version = read_version(lexed, directive);
-        plr_place place = plr_source_place(source, lexed->tokens.items[directive->token].offset);
-        if (!messages && (version == 0 || version > most))
-            continue;
-        if (version == 0)
-            plr_say(l, PLR_CODE_BAD_VERSION, place, "this GLSL version is not known");
-        else if (version > most)
-            plr_say(l, PLR_CODE_BAD_VERSION, place,
-                    "this GLSL version is newer than the program's, 300 es");
-        else if (version > l->version)
-            l->version = version;
-    }
+static int most_version(const plr_linking *l) {
+    return l->desc->glsl == PLR_GLSL_300ES ? 330 : 460;
 }
 
-void plr_decide_version(plr_linking *l, plr_linking *messages) {
+static void ask_version(plr_linking *l, const plr_lexed *lexed, const plr_directive *directive) {
+    int version = directive->kind == PLR_D_VERSION ? read_version(lexed, directive) : 0;
+    if (version <= most_version(l) && version > l->version)
+        l->version = version;
+}
+
+/* What the target asks for at least. */
+static int least_version(const plr_linking *l) {
     static const int least[] = {
         [PLR_GLSL_330] = 330, [PLR_GLSL_410] = 410, [PLR_GLSL_450] = 450, [PLR_GLSL_300ES] = 300};
+    return least[l->desc->glsl];
+}
+
+void plr_decide_version(plr_linking *l) {
     const plr_link_desc *desc = l->desc;
-    l->version = least[desc->glsl];
-    for (size_t i = 0; i < desc->base_count; i++)
-        if (desc->base[i])
-            ask_version(l, desc->base[i], messages);
-    for (uint32_t e = 0; e < l->effect_count; e++) {
-        const plr_effect *effect = &desc->effects[e];
-        for (size_t i = 0; i < effect->source_count && !effect->disabled; i++)
-            if (effect->sources[i] && (l->stages & 1u << effect->sources[i]->stage))
-                ask_version(l, effect->sources[i], messages);
+    l->version = least_version(l);
+    for (size_t r = 0; l->readings.keys && r <= l->readings.mask; r++) {
+        const plr_reading *reading = l->readings.keys[r] ? l->readings.values[r] : NULL;
+        const plr_lexed *lexed = reading ? &reading->source->lexed : NULL;
+        for (size_t i = 0; lexed && i < lexed->directives.count; i++)
+            ask_version(l, lexed, &lexed->directives.items[i]);
     }
     if (desc->glsl == PLR_GLSL_300ES)
         l->version = 300;
+}
+
+bool plr_lower_version(plr_linking *l) {
+    int before = l->version;
+    if (l->desc->glsl == PLR_GLSL_300ES)
+        return false;
+    l->version = least_version(l);
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
+        for (uint32_t e = 0; e < l->effect_count + 1; e++) { /* the effects and the base */
+            const plr_scope *scope = plr_scope_of(l, (plr_stage)s, e);
+            bool out = e < l->effect_count && (l->faulty[e] || l->left_out[e]);
+            for (uint32_t u = 0; u < scope->unit_count && !out; u++) {
+                const plr_unit *unit = &scope->units[u];
+                for (size_t i = 0; unit->cut && i < unit->cut->versions.count; i++)
+                    ask_version(l, unit->lexed,
+                                &unit->lexed->directives.items[unit->cut->versions.items[i]]);
+            }
+        }
+    plr_set_version(l);
+    return l->version != before;
+}
+
+static void say_version(plr_linking *l, const plr_unit *unit, const plr_directive *directive) {
+    int version = read_version(unit->lexed, directive);
+    plr_place place = plr_token_place(unit, directive->token);
+    if (version == 0)
+        plr_say(l, PLR_CODE_BAD_VERSION, place, "this GLSL version is not known");
+    else if (version > most_version(l))
+        plr_say(l, PLR_CODE_BAD_VERSION, place,
+                "this GLSL version is newer than the program's, 300 es");
+}
+
+void plr_say_versions(plr_linking *l) {
+    for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
+        for (uint32_t e = 0; e < l->effect_count + 1; e++) {
+            const plr_scope *scope = plr_scope_of(l, (plr_stage)s, e);
+            for (uint32_t u = 0; u < scope->unit_count; u++) {
+                const plr_unit *unit = &scope->units[u];
+                for (size_t i = 0; unit->cut && i < unit->cut->versions.count; i++)
+                    say_version(l, unit,
+                                &unit->lexed->directives.items[unit->cut->versions.items[i]]);
+            }
+        }
 }

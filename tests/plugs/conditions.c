@@ -194,6 +194,7 @@ static void test_versions(void) {
     check_version("#version 460\n", "", PLR_GLSL_450, "#version 460 core");
     check_version("#version 330\n", "", PLR_GLSL_300ES, "#version 300 es");
     CHECK_HAS(link_result()->fragment, "precision highp float;");
+    check_version("", "#if 0\n#version 450\n#endif\n", PLR_GLSL_330, "#version 330 core");
     check_version("", "#version 999\n", PLR_GLSL_330, "#version 330 core");
     CHECK_SAID("a.frag:1:1: warning", "bad-version");
 }

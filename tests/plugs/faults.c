@@ -25,6 +25,7 @@ static void test_errors(void) {
     static const char *const rows[][3] = {
         {"\nfloat PLUG_change(inout vec4 x) { return 1.0; }\n", "b.frag:2:7: error",
          "plug-not-void"},
+        {" PLUG_change(inout vec4 x) { x.r = 1.0; }\n", "b.frag:1:2: error", "plug-not-void"},
         {"PLUG_change(inout vec4 x) { return 1.0; }\nvec4 PLUG_change(vec4 x) { return x; }\n",
          "b.frag:2:6: error", "plug-not-void"},
         {"  void PLUG_change(inout vec4 x, float y) { }\n", "b.frag:1:8: error", "plug-arity"},
@@ -174,7 +175,7 @@ static void test_kept_text(void) {
     base(BASE);
     effect("precision highp float;\nDECLARE(a) what is this 12 + ;\nOTHER(b)\n" GOOD);
     const linked *r = link_all();
-    CHECK_LACKS(r->fragment, "precision"); /* which would reach beyond the effect */
+    CHECK_HAS(r->fragment, "precision highp float;");
     CHECK_HAS(r->fragment, "what is this 12 + ;");
     CHECK_HAS(r->fragment, "OTHER(b)");
     CHECK_HAS(r->fragment, "plr0_change(c);");

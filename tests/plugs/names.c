@@ -180,6 +180,23 @@ static void test_provider(void) {
     CHECK_SILENT();
 }
 
+/* The struct goes on through effects that offer it again. */
+static void test_struct_through_chain(void) {
+    begin();
+    base(BASE);
+    effect("struct W { float h; };\nvoid PLUG_change(inout vec4 x) { W w = W(1.0); "
+           "/* PLUG: one (w) */ x.r = w.h; }\n");
+    effect(
+        "struct W { float h; };\nvoid PLUG_one(inout W w) { /* PLUG: two (w) */ w.h *= 2.0; }\n");
+    effect(
+        "struct W { float h; };\nvoid PLUG_two(inout W w) { /* PLUG: three (w) */ w.h *= 2.0; }\n");
+    effect("void PLUG_three(inout W w) { w.h *= 2.0; }\n");
+    const linked *r = link_valid();
+    CHECK_INT(occurrences(r->fragment, "struct "), 1);
+    CHECK_HAS(r->fragment, "void plr3_three(inout plr0_W w)");
+    CHECK_SILENT();
+}
+
 static void test_base_struct(void) {
     begin();
     base("out vec4 result;\n/* PLUG-DECLARATIONS */\nconst int N = 2;\n#define SIZE N\n"
@@ -415,6 +432,7 @@ int main(void) {
     test_shared_helper();
     test_macro_in_order();
     test_provider();
+    test_struct_through_chain();
     test_base_struct();
     test_library();
     test_dead_code();

@@ -197,6 +197,25 @@ static void test_places(void) {
     CHECK_SILENT();
 }
 
+/* Numbered names do not meet those of other plugs. */
+static void test_numbered_names(void) {
+    begin();
+    base("out vec4 c;\nvoid main() { c = vec4(1.0); /* PLUG: a (c) */ /* PLUG: a_2 (c) */ }\n");
+    effect("void PLUG_a(inout vec4 x) { x.r = 0.0; }\nvoid PLUG_a(inout vec4 x) { x.g = 0.0; }\n"
+           "void PLUG_a_2(inout vec4 x) { x.b = 0.0; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "plr0_a(c);\nplr0_a_3(c);\nplr0_a_2(c);");
+}
+
+static void test_macro_body(void) {
+    begin();
+    base(BASE);
+    effect("#define ARGS inout vec4 x\n#define BODY { x.r = 0.5; }\nvoid PLUG_change(ARGS) BODY\n"
+           "void PLUG_change(inout vec4 x) { x.g = 0.5; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "  plr0_change(c);\n  plr0_change_2(c);\n");
+}
+
 /* A plug in the middle of a statement is called at its end. */
 static void test_inside_statement(void) {
     begin();
@@ -416,6 +435,8 @@ int main(void) {
     test_later_units_only();
     test_many_functions();
     test_places();
+    test_numbered_names();
+    test_macro_body();
     test_inside_statement();
     test_direct_call();
     test_builtin_first();
