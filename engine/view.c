@@ -69,15 +69,20 @@ static bool prepare(plr_view *view, plr_diags *diags) {
                       view->desc.viewpoint);
         return false;
     }
+    plr_phase start = plr_clock();
     view->desc.dialect = plr_dialect(view->scene, &view->flat, view->desc.dialect, diags);
     plr_background_prepare(view);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);
+    plr_phase end = plr_clock();
+    plr_phase link = {view->composer.link_cpu_ms, view->composer.link_wall_ms};
+    plr_phase compile = {view->composer.compile_cpu_ms, view->composer.compile_wall_ms};
+    view->stats.link = link;
+    view->stats.compile = compile;
+    view->stats.load = (plr_phase){end.cpu_ms - start.cpu_ms - link.cpu_ms - compile.cpu_ms,
+                                   end.wall_ms - start.wall_ms - link.wall_ms - compile.wall_ms};
     if (view->engine)
         upload(view);
-    view->stats.link = (plr_phase){view->composer.link_cpu_ms, view->composer.link_wall_ms};
-    view->stats.compile =
-        (plr_phase){view->composer.compile_cpu_ms, view->composer.compile_wall_ms};
     return true;
 }
 

@@ -126,6 +126,7 @@ typedef struct plr_phase {
 } plr_phase;
 
 typedef struct plr_view_stats {
+    plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
     double samples;                        /* volume samples asked for in the last draw, at most */
 } plr_view_stats;

@@ -10,7 +10,9 @@ static const char *const phase_names[PHASE_COUNT] = {"load", "link", "compile", 
 static plr_view_stats get_phases(const render_stats *stats, plr_phase phases[PHASE_COUNT]) {
     plr_view_stats view;
     plr_view_get_stats(stats->view, &view);
-    phases[0] = stats->load;
+    /* the scene's own files, then what it refers to */
+    phases[0] =
+        (plr_phase){stats->load.cpu_ms + view.load.cpu_ms, stats->load.wall_ms + view.load.wall_ms};
     phases[1] = view.link;
     phases[2] = view.compile;
     phases[3] = view.upload;
