@@ -115,7 +115,6 @@ def once_for_many_shapes():
     suite.equal("", len(places(result)), 1)
 
 
-@suite.known_fault("unknown-plug instead of the note")
 @suite.case
 def lacking():
     "what builds on a bad effect is left out with a note"

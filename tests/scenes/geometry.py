@@ -155,4 +155,56 @@ def rows_and_columns():
     suite.close("PNG", data[3][: 3], (255, 0, 0), 0)
 
 
+@suite.case
+def translucent_order():
+    "translucent surfaces are drawn from far to near, in any order of the file"
+    def glass(z, color):
+        return plane(z, f"UnlitMaterial {{ emissiveColor {color} transparency .5 }}")
+
+    panes = [glass(1, "1 0 0"), glass(0, "0 1 0"), glass(-1, "0 0 1")]
+    expected = over(over((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5)), (0, 0, 0.5, 0.5))
+    for order in ((0, 1, 2), (2, 1, 0), (1, 2, 0)):
+        suite.close(f"{order}", suite.middle(front_scene(*(panes[i] for i in order))), expected)
+
+
+@suite.case
+def textured_alpha():
+    "a texture with alpha blends, one without does not"
+    behind = plane(-1)
+    for components, word, expected in ((4, "0xFF000080", over(premultiplied((1, 0, 0), 128 / 255), ORANGE)),
+                                       (2, "0x8040", over(premultiplied((128 / 255,) * 3, 64 / 255), ORANGE)),
+                                       (3, "0xFF0080", (1, 0, 128 / 255, 1)),
+                                       (1, "0x80", (128 / 255,) * 3 + (1,)),
+                                       (4, "0x00FF00FF", (0, 1, 0, 1))):
+        texture = f"texture PixelTexture {{ image 1 1 {components} {word} }}"
+        got = suite.middle(front_scene(behind, quad("UnlitMaterial { }", appearance=texture)))
+        suite.close(f"{components} components, {word}", got, expected)
+
+
+@suite.case
+def colours_at_vertices():
+    "Color and ColorRGBA of a face set"
+    geometry = ("IndexedFaceSet { coordIndex [0 1 2 3 -1] coord Coordinate { point "
+                "[-.5 -.5 0, .5 -.5 0, .5 .5 0, -.5 .5 0] } color %s }")
+    for node, expected in (("Color { color [0 0 0, 1 0 0, 1 1 0, 0 1 0] }", (0.375, 0.625, 0, 1)),
+                           ("ColorRGBA { color [0 0 0 1, 1 0 0 1, 1 1 0 1, 0 1 0 1] }", (0.375, 0.625, 0, 1))):
+        text = scene("OrthoViewpoint { position 0 0 10 fieldOfView -.5 -.5 .5 .5 }\n",
+                     quad("UnlitMaterial { }", geometry=geometry % node))
+        got = suite.probe(text, [(1, 1)], size="4x4")[0]
+        suite.close(node, got, expected)
+
+
+@suite.case
+def switches():
+    "Switch, LOD, visible FALSE"
+    red, green = (quad(f"UnlitMaterial {{ emissiveColor {c} }}") for c in ("1 0 0", "0 1 0"))
+    for name, text, expected in (
+        ("choice 1", f"Switch {{ whichChoice 1 children [ {red} {green} ] }}\n", (0, 1, 0, 1)),
+        ("no choice", f"Switch {{ children [ {red} {green} ] }}\n", (0, 0, 0, 0)),
+        ("LOD", f"LOD {{ children [ {green} {red} ] }}\n", (0, 1, 0, 1)),
+        ("visible FALSE", f"Group {{ visible FALSE children [ {red} ] }}\n", (0, 0, 0, 0)),
+    ):
+        suite.close(name, suite.middle(front_scene(text)), expected)
+
+
 suite.run()

@@ -158,7 +158,6 @@ def per_ray_order():
         suite.close(f"order {order}", got[0] + got[1], (1, 0, 0, 1, 0, 0, 1, 1), 1e-3)
 
 
-@suite.known_fault("no layers of their own yet")
 @suite.case
 def layer():
     "a composite function on one of several overlapping volumes makes it a layer, with a warning"
@@ -173,6 +172,51 @@ def layer():
     first = premultiplied((1, 1, 0), 128 / 255)
     suite.close("the function meets its own volume alone", got,
                 over(first, premultiplied((0, 1, 0), 128 / 255)), 2e-4)
+
+
+@suite.case
+def apart_with_composite():
+    "volumes that do not overlap: a function for compositing on each, in a group, counts for each"
+    total = effect("void PLUG_volume_composite(inout vec4 accumulated, inout vec4 color,"
+                   " const in VolumeSample s) { color.rgb = vec3(1.0, 1.0, 0.0); }",
+                   'placement "ADD_BEFORE" target "Composite"')
+    one = Fog(0xFF000080)
+    left = "Transform { translation -.5 0 0 scale .5 .5 .5 children [ " + one.text + " ] }\n"
+    right = "Transform { translation .5 0 0 scale .5 .5 .5 children [ " + one.text + " ] }\n"
+    got = suite.probe(front_scene(total, left, right), [(4, 8), (12, 8)])
+    want = premultiplied((1, 1, 0), 128 / 255)
+    suite.close("left", got[0], want, 2e-4)
+    suite.close("right", got[1], want, 2e-4)
+
+
+@suite.case
+def rays_of_their_own():
+    "volume_ray on one volume leaves the other alone"
+    cut = effect("void PLUG_volume_ray(inout float t_enter, inout float t_exit, const in vec3 o,"
+                 " const in vec3 d) { t_exit = t_enter; }")
+    red, green = Fog(0xFF000080), Fog(0x00FF0080)
+    inside = red.text.replace("opacityUnitDistance", f"effects [ {cut} ] opacityUnitDistance")
+    got = suite.middle(front_scene(inside, green.text))
+    suite.close("", got, expected([green]), 2e-4)
+
+
+@suite.known_fault("lights of one volume reach another that has no light")
+@suite.case
+def lit_mixture():
+    "light in a mix: each volume with its own style"
+    lit = volume("PixelTexture3D { image [1 1 1 2 0 255] }", "ShadedVolumeStyle { lighting TRUE }",
+                 effect("void PLUG_volume_classify(inout vec4 color, const in VolumeSample s)"
+                        "{ color = vec4(0.5, 0.25, 1.0, 1.0); }"))
+    got = suite.middle(front_scene("DirectionalLight { direction 0 0 1 }\n",
+                                   lit, Fog(0x00FF00FF).text))
+    suite.close("opaque samples are averaged, lit and unlit", got, (0.25, 0.625, 0.5, 1), 1e-3)
+
+
+@suite.case
+def many():
+    "ten volumes"
+    fogs = [Fog(0xFF000020 + (i << 20), z=0.3 * i, unit=1.0) for i in range(10)]
+    both_orders("in a row, each over its neighbours", *fogs)
 
 
 suite.run()

@@ -240,4 +240,65 @@ def prototypes():
     suite.close("", suite.middle(text), (0.75, 0.375, 0.625, 1))
 
 
+@suite.case
+def one_shape_in_two_groups():
+    "a shape used in two groups is drawn with each group's effects"
+    shape = quad(BLACK, append(1)).replace("Shape {", "DEF S Shape {", 1)
+    row = Row(suite)
+    row.add(shape + append(2))
+    row.add("USE S " + append(3))
+    got = row.draw()
+    suite.close("first", got[0][0], digits([1, 2]), 2e-5)
+    suite.close("second", got[1][0], digits([1, 3]), 2e-5)
+
+
+@suite.case
+def one_group_effect_on_all():
+    "one effect in a group reaches a shape and a volume, with what each has"
+    both = effect(MODIFY + "{ color = vec4(0.0, 1.0, 0.0, 1.0); }\n"
+                  + CLASSIFY + "{ color = vec4(0.0, 0.0, 1.0, 1.0); }")
+    text = front_scene(both, "Transform { translation -.5 0 0 children [ ", quad(BLACK), " ] }\n",
+                       "Transform { translation .5 0 0 children [ ", volume(constant(9)), " ] }\n")
+    result = suite.render(text, "--probe", "4,8", "--probe", "12,8")
+    suite.close("", [float(w) for w in result.output.split()], (0, 1, 0, 1, 0, 0, 1, 1))
+    suite.equal("nothing to complain of", result.messages(), [])
+
+
+@suite.case
+def textures_of_appearance():
+    "an effect in Appearance reaches its texture's plug; one on the texture comes first"
+    color = ("void PLUG_texture_color(inout vec4 texture_color, const in vec4 tex_coord)"
+             "{ texture_color.r = texture_color.r * 0.1 + 0.%d; }")
+    texture = f"texture PixelTexture {{ image 1 1 3 0 effects {effect(color % 1)} }}"
+    text = front_scene(append(3), quad("UnlitMaterial { }", effect(color % 2), texture))
+    suite.close("", suite.middle(text)[0], digits([1, 2, 3]), 2e-5)
+
+
+@suite.case
+def lights_of_two_volumes():
+    "an effect on a light works in each volume that the light reaches"
+    half = effect("void PLUG_light_scale(inout float scale, const in vec3 n, const in vec3 l)"
+                  "{ scale *= 0.5; }")
+    from_left = "PixelTexture3D { image [1 1 1 2 0 255] }"
+    opaque = effect(CLASSIFY + "{ color = vec4(0.5, 0.25, 1.0, 1.0); }")
+    lit = volume(from_left, "ShadedVolumeStyle { lighting TRUE }", opaque)
+    text = front_scene("DirectionalLight { direction 0 0 1 effects ", half, " }\n",
+                       "DirectionalLight { direction 0 0 1 intensity .25 }\n",
+                       *(f"Transform {{ translation {x} 0 0 children [ {lit} ] }}\n"
+                         for x in (-0.6, 0.6)))
+    # empty behind, dense in front: the normal points away from the viewer, to the light
+    got = suite.probe(text, [(3, 8), (12, 8)])
+    for name, color in zip(("left", "right"), got):
+        suite.close(name, color, (0.375, 0.1875, 0.75, 1), 1e-3)
+
+
+@suite.case
+def many_effects():
+    "a hundred effects of one text on one shape"
+    step = effect("float step_of(float x) { return x + 0.005; }\n"
+                  + MODIFY + "{ color.r = step_of(color.r); }", head="DEF E")
+    text = front_scene(quad(BLACK, step + "USE E " * 99))
+    suite.close("", suite.middle(text), (0.5, 0, 0, 1), 2e-4)
+
+
 suite.run()

@@ -214,4 +214,28 @@ def without_partner():
     suite.equal("silently", result.messages(), [])
 
 
+@suite.case
+def types_without_uniform():
+    "SFString and SFImage have no uniform: a warning or an error at the field, and the rest is drawn"
+    for field in ('SFString label \"text\"', "SFImage picture 1 1 1 9"):
+        code = f"{MODIFY}{{ color.g = 0.5; }}"
+        text = front_scene(quad(BLACK, effect(code, "initializeOnly " + field.replace("\\", ""))))
+        result = suite.render(text, "--probe", "8,8", status=None)
+        suite.check(f"{field}: drawn", result.output.split()[:2] == ["0.00000000", "0.50000000"],
+                    result.output, result.errors)
+
+
+@suite.case
+def default_values():
+    "declared fields without a value have X3D's defaults"
+    check_all((
+        ("SFFloat", "float x", "SFFloat x 0", "vec3(x + 0.5)", (0.5,) * 3),
+        ("MFFloat, empty", "float x[2]", "MFFloat x [ ]", "vec3(x[0] + 0.25)", (0.25,) * 3),
+    ))
+    code = f"uniform sampler2D image;\n{MODIFY}{{ color.rgb = texture2D(image, vec2(0.5)).rgb + 0.25; }}"
+    text = front_scene(quad(BLACK, effect(code, "inputOutput SFNode image NULL")))
+    result = suite.render(text, "--probe", "8,8", status=None)
+    suite.check("SFNode NULL does no harm", len(result.output.split()) == 4, result.errors)
+
+
 suite.run()
