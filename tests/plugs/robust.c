@@ -130,7 +130,7 @@ static void test_truncated(void) {
         base(BASE);
         effect(part);
         if (!link_all()->program)
-            CHECK(!"a text that breaks off takes down the base");
+            TAP_RESULT(0, "the base stands beside a text of %zu bytes", length);
     }
     CHECK(true);
 }

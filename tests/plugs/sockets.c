@@ -50,8 +50,8 @@ static void test_function_forms(void) {
         "void PLUG_ch\\\nange(inout vec4 x) { x *= 0.5; }",
         "void PLUG_change(inout vec4 \\\n x) { x *= \\\r\n 0.5; }",
         "\xEF\xBB\xBFvoid PLUG_change(inout vec4 x)\r\n{\r\n  x *= 0.5;\r\n}",
-        "void /* PLUG_other(a) */ PLUG_change(/* b */ inout vec4 x) // PLUG_third(c)\n{ x *= 0.5; "
-        "}",
+        ("void /* PLUG_other(a) */ PLUG_change(/* b */ inout vec4 x) // PLUG_third(c)\n{ x *= 0.5; "
+         "}"),
     };
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         begin();
