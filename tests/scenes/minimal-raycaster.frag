@@ -25,32 +25,24 @@ void main() {
     else
         origin.xy = (ndc - p[3].xy) / scale;
 
-    vec3 o = (eyeToLocal * vec4(origin, 1.0)).xyz;
+    // in texture coordinates, the box is from 0 to 1
     vec3 d = mat3(eyeToLocal) * direction;
-    float enter = 0.0, leave = 3.0e38;
-    for (int axis = 0; axis < 3; axis++) {
-        float half_size = 0.5 * dimensions[axis];
-        if (d[axis] == 0.0) {
-            if (!(abs(o[axis]) <= half_size))
-                leave = -1.0;
-            continue;
-        }
-        float a = (-half_size - o[axis]) / d[axis], b = (half_size - o[axis]) / d[axis];
-        enter = max(enter, min(a, b));
-        leave = min(leave, max(a, b));
-    }
+    float speed = length(d);
+    vec3 o = (eyeToLocal * vec4(origin, 1.0)).xyz / dimensions + 0.5;
+    d /= dimensions;
+    vec3 along = mix(d, vec3(1.0e-30), equal(d, vec3(0.0)));
+    vec3 a = -o / along, b = (1.0 - o) / along, near = min(a, b), far = max(a, b);
+    float enter = max(max(near.x, near.y), max(near.z, 0.0));
+    float leave = min(far.x, min(far.y, far.z));
 
     vec4 sum = vec4(0.0);
-    float speed = length(d);
-    float whole = max(leave - enter, 0.0);
     float pace = sampleDistance / speed;
-    int steps = int(min(ceil(whole / pace), 1.0e6));
+    int steps = int(clamp(ceil((leave - enter) / pace - 1.0e-3), 0.0, 1.0e6));
     vec2 size = vec2(textureSize(transferFunction, 0));
     for (int i = 0; i < steps; i++) {
-        float done = float(i) * pace;
-        float span = min(pace, whole - done);
-        vec3 position = (o + (enter + done + 0.5 * span) * d) / dimensions + 0.5;
-        vec2 at = vec2(clamp(texture(voxels, position).r, 0.0, 1.0), 0.0);
+        float from = enter + float(i) * pace;
+        float span = i == steps - 1 ? leave - from : pace;
+        vec2 at = vec2(clamp(texture(voxels, o + (from + 0.5 * span) * d).r, 0.0, 1.0), 0.0);
         vec4 color = clamp(texture(transferFunction, (at * (size - 1.0) + 0.5) / size), 0.0, 1.0);
         if (color.a < 1.0)
             color.a = 1.0 - pow(1.0 - color.a, span * speed / referenceLength);

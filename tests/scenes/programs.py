@@ -13,10 +13,10 @@ suite = Suite()
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BARE = front_scene(volume(constant(51, (4, 4, 4))))
-# The composed program may have this many times the instructions of the hand-written one: as
-# --stats counts them (calls of functions cost loads and stores; measured 1.41), and after a compiler's
-# optimisation, where nothing but the plugs' order of work is left (measured 1.03).
-ALLOWED = 1.5
+# The composed program may have this many times the instructions of the hand-written one, as --stats
+# counts them and after spirv-opt -O (measured 1.12 and 1.02: the clamping between plugs, which a bare
+# volume does not need, and guards against rounding).
+ALLOWED = 1.2
 ALLOWED_OPTIMISED = 1.1
 
 
