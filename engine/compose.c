@@ -5,6 +5,7 @@
 
 #include "engine/bind.h"
 #include "engine/report.h"
+#include "engine/unreached.h"
 
 /* After this many rounds of leaving out the first faulty effect of each stage, all effects with a
  * message are left out at once: hostile input must not cost a round an effect. */
@@ -152,28 +153,6 @@ static plr_built *find_built(const plr_composer *c, const char *const texts[PLR_
     return NULL;
 }
 
-/* What nothing calls is not in the program; whether it would compile is worth a warning. */
-static void warn_unreached(plr_composer *c, plr_recipe *recipe) {
-    plr_program *program = plr_link_recipe(c, recipe, true, NULL);
-    if (!program)
-        return;
-    const char *texts[PLR_STAGE_COUNT];
-    program_texts(program, texts);
-    verdict v = {0};
-    if (!plr_glsl_check(texts, v.stages, &v.link))
-        for (int stage = 0; stage < PLR_STAGE_COUNT; stage++) {
-            plr_report report = {program, recipe, (plr_stage)stage, PLR_CODE_UNREACHED};
-            for (size_t i = 0; i < v.stages[stage].count; i++) {
-                plr_mapped mapped;
-                size_t effect = plr_report_locate(&report, &v.stages[stage].items[i], &mapped);
-                if (effect != PLR_NO_EFFECT && !recipe->effects.items[effect].builtin)
-                    plr_report_add(&report, &v.stages[stage].items[i], c->diags);
-            }
-        }
-    free_verdict(&v);
-    plr_program_destroy(&program);
-}
-
 static plr_built *keep(plr_composer *c, const plr_recipe *recipe, const char *kind,
                        plr_program *program, uint64_t hash) {
     plr_built *built = PLR_NEW(c->kitchen->arena, plr_built);
@@ -251,7 +230,7 @@ plr_built *plr_compose_program(plr_composer *c, plr_recipe *recipe, const char *
     for (int round = 0; again && !built; round++)
         built = try_once(c, recipe, kind, round, &again);
     if (built && c->check_unreached)
-        warn_unreached(c, recipe);
+        plr_unreached_collect(c, recipe);
     *program = built ? built->info.program : NULL;
     return built;
 }

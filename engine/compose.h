@@ -14,6 +14,13 @@ typedef struct plr_built {
     uint64_t hash;
 } plr_built;
 
+/* A compiler's complaint about text that a program does not reach. */
+typedef struct plr_unreached {
+    const plr_source *source;
+    plr_place place;
+    const char *text;
+} plr_unreached;
+
 typedef struct plr_composer {
     plr_kitchen *kitchen;
     plr_cache *cache; /* NULL: no GL, glslang only */
@@ -23,6 +30,10 @@ typedef struct plr_composer {
         plr_built **items;
         size_t count, capacity;
     } built;
+    struct {
+        plr_unreached *items;
+        size_t count, capacity;
+    } unreached;
     double link_cpu_ms, link_wall_ms, compile_cpu_ms, compile_wall_ms;
 } plr_composer;
 

@@ -43,8 +43,7 @@ void plr_report_add(const plr_report *report, const plr_glsl_message *message, p
     size_t effect = plr_report_locate(report, message, &mapped);
     char text[1024];
     plr_program_demangle(report->program, message->text, text, sizeof text);
-    plr_severity severity = report->code == PLR_CODE_UNREACHED ? PLR_WARNING : message->severity;
-    plr_diags_add_as(diags, severity, report->code, mapped.place, "%s", text);
+    plr_diags_add_as(diags, message->severity, report->code, mapped.place, "%s", text);
     const char *name = effect == PLR_NO_EFFECT ? NULL : report->recipe->effects.items[effect].name;
     if (mapped.socket_call)
         plr_diags_note(diags, mapped.plug_place, "called at this plug%s%s", name ? " for " : "",

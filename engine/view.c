@@ -6,6 +6,7 @@
 
 #include "engine/dialect.h"
 #include "engine/state.h"
+#include "engine/unreached.h"
 #include "engine/volume.h"
 
 /* ---- Making a view ---- */
@@ -74,6 +75,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
     plr_background_prepare(view);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);
+    plr_unreached_report(&view->composer);
     plr_phase end = plr_clock();
     plr_phase link = {view->composer.link_cpu_ms, view->composer.link_wall_ms};
     plr_phase compile = {view->composer.compile_cpu_ms, view->composer.compile_wall_ms};

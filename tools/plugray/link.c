@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/compose.h"
+#include "engine/unreached.h"
 #include "engine/report.h"
 #include "tools/plugray/commands.h"
 #include "tools/plugray/files.h"
@@ -133,6 +134,7 @@ static void validate_effects(link_job *job) {
     if (setjmp(out_of_memory) == 0) {
         const plr_program *program;
         plr_compose_program(&composer, &recipe, "link", &program);
+        plr_unreached_report(&composer);
     } else {
         plr_diags_add(job->diags, PLR_CODE_NO_MEMORY, (plr_place){NULL, 0, 0}, "out of memory");
     }
