@@ -4,11 +4,12 @@
 
 #include "engine/report.h"
 
-/* The length of the plug's name behind the last "PLUG_" before a place in a text; 0: none. */
+/* The length of the plug's name behind the last "PLUG_" before the end of a place's line; 0: none.
+ */
 static size_t plug_before(const char *text, size_t offset, const char **name) {
     static const char prefix[] = "PLUG_";
     size_t length = strlen(prefix);
-    for (size_t at = offset + 1; at-- > 0;)
+    for (size_t at = offset + strcspn(text + offset, "\n") + 1; at-- > 0;)
         if (strncmp(text + at, prefix, length) == 0) {
             *name = text + at + length;
             return strspn(*name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
