@@ -1,8 +1,9 @@
 /* How fast the linker is: microseconds per effect of links with 1, 10, 100 and 1000 effects, and
  * the whole link of a scene with 20 effects against glslang's parse of the result.
  *
- * Usage: bench-link [EFFECTS-FOLDER]. Everything is warm, the base and the library are read
- * beforehand, the effects are read as a part of each link; each number is the median of 50 runs. */
+ * Usage: bench-link BENCH-FOLDER EFFECTS-FOLDER, the folders tools/bench and effects. Everything is
+ * warm, the base and the library are read beforehand, the effects are read as a part of each link;
+ * each number is the median of 50 runs. */
 #include <plugray/plugs.h>
 
 #include <glslang/Include/glslang_c_interface.h>
@@ -17,58 +18,6 @@ enum {
     MOST_EFFECTS = 1000,
     MOST_UNITS = 32
 };
-
-static const char effect_text[] =
-    "uniform float amount, scale;\n"
-    "uniform vec3 tint;\n"
-    "varying vec3 position;\n"
-    "const int OCTAVES = 4;\n"
-    "\n"
-    "/* Smooth noise in space. */\n"
-    "float hash(vec3 p) { return fract(sin(dot(p, vec3(12.9898, 78.233, 37.719))) * 43758.5453); "
-    "}\n"
-    "\n"
-    "float noise(vec3 p)\n"
-    "{\n"
-    "  vec3 i = floor(p), f = fract(p);\n"
-    "  f = f * f * (3.0 - 2.0 * f); // smooth\n"
-    "  float a = mix(hash(i), hash(i + vec3(1.0, 0.0, 0.0)), f.x);\n"
-    "  float b = mix(hash(i + vec3(0.0, 1.0, 0.0)), hash(i + vec3(1.0, 1.0, 0.0)), f.x);\n"
-    "  float c = mix(hash(i + vec3(0.0, 0.0, 1.0)), hash(i + vec3(1.0, 0.0, 1.0)), f.x);\n"
-    "  float d = mix(hash(i + vec3(0.0, 1.0, 1.0)), hash(i + vec3(1.0, 1.0, 1.0)), f.x);\n"
-    "  return mix(mix(a, b, f.y), mix(c, d, f.y), f.z);\n"
-    "}\n"
-    "\n"
-    "void PLUG_fragment_modify(inout vec4 fragment_color)\n"
-    "{\n"
-    "  float sum = 0.0, weight = 0.5;\n"
-    "  vec3 p = position * scale;\n"
-    "  for (int i = 0; i < OCTAVES; i++) {\n"
-    "    sum += noise(p) * weight;\n"
-    "    p *= 2.0;\n"
-    "    weight *= 0.5;\n"
-    "  }\n"
-    "  fragment_color.rgb = mix(fragment_color.rgb, tint, amount * sum);\n"
-    "}\n";
-
-static const char base_text[] =
-    "#version 330 core\n"
-    "in vec4 castle_vertex_eye;\n"
-    "in vec3 castle_normal_eye;\n"
-    "uniform vec4 color;\n"
-    "out vec4 result;\n"
-    "/* PLUG-DECLARATIONS */\n"
-    "void main()\n"
-    "{\n"
-    "  vec4 fragment_color = color;\n"
-    "  vec3 normal_eye = normalize(castle_normal_eye);\n"
-    "  /* PLUG: fragment_eye_space (castle_vertex_eye, normal_eye) */\n"
-    "  fragment_color.rgb *= max(normal_eye.z, 0.0);\n"
-    "  /* PLUG: lighting_apply (fragment_color, castle_vertex_eye, normal_eye) */\n"
-    "  /* PLUG: fragment_modify (fragment_color) */\n"
-    "  /* PLUG: fog_apply (fragment_color, normal_eye) */\n"
-    "  result = fragment_color;\n"
-    "}\n";
 
 /* Of the processor: other work on the machine does not count. */
 static double microseconds(void) {
@@ -90,25 +39,36 @@ static double median(double *values, size_t count) {
 typedef struct scene {
     const plr_source *base[1], *library[MOST_UNITS];
     size_t library_count, effect_count;
+    char effect[1 << 16]; /* the text of every effect */
+    size_t effect_length;
     plr_source *units[MOST_EFFECTS];
     plr_effect effects[MOST_EFFECTS];
 } scene;
 
-static plr_source *read_file(const char *folder, const char *name) {
+/* The length of the text read into `text`; the program ends without the file. */
+static size_t read_text(const char *folder, const char *name, char *text, size_t size) {
     char path[1024];
-    snprintf(path, sizeof path, "%s/library/%s", folder, name);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "rb");
-    if (!file)
-        return NULL;
-    static char text[1 << 20];
-    size_t length = fread(text, 1, sizeof text, file);
+    if (!file) {
+        fprintf(stderr, "there is no %s\n", path);
+        exit(2);
+    }
+    size_t length = fread(text, 1, size, file);
     fclose(file);
-    return plr_source_read(PLR_FRAGMENT, text, length, &(plr_origin){.file = path}, NULL, NULL);
+    return length;
+}
+
+static plr_source *read_file(const char *folder, const char *name) {
+    static char text[1 << 20];
+    size_t length = read_text(folder, name, text, sizeof text);
+    return plr_source_read(PLR_FRAGMENT, text, length, &(plr_origin){.file = name}, NULL, NULL);
 }
 
 static void read_library(scene *s, const char *folder) {
-    static const char *const names[] = {"host.glsl", "legacy.glsl",   "lighting.glsl",
-                                        "mix.glsl",  "material.glsl", "space.glsl"};
+    static const char *const names[] = {"library/host.glsl",     "library/legacy.glsl",
+                                        "library/lighting.glsl", "library/mix.glsl",
+                                        "library/material.glsl", "library/space.glsl"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         plr_source *source = read_file(folder, names[i]);
         if (source)
@@ -119,8 +79,7 @@ static void read_library(scene *s, const char *folder) {
 /* Reads the effects and links: what a host does for each new combination. */
 static plr_program *link_scene(scene *s) {
     for (size_t i = 0; i < s->effect_count; i++) {
-        s->units[i] =
-            plr_source_read(PLR_FRAGMENT, effect_text, sizeof effect_text - 1, NULL, NULL, NULL);
+        s->units[i] = plr_source_read(PLR_FRAGMENT, s->effect, s->effect_length, NULL, NULL, NULL);
         s->effects[i] = (plr_effect){
             .name = "Noise", .sources = (const plr_source *const *)&s->units[i], .source_count = 1};
     }
@@ -186,9 +145,13 @@ static double time_parse(const char *text) {
 int main(int argc, char **argv) {
     static scene s;
     static const size_t counts[] = {1, 10, 100, 1000};
-    s.base[0] = plr_source_read(PLR_FRAGMENT, base_text, sizeof base_text - 1, NULL, NULL, NULL);
-    if (argc > 1)
-        read_library(&s, argv[1]);
+    if (argc != 3) {
+        fprintf(stderr, "usage: bench-link BENCH-FOLDER EFFECTS-FOLDER\n");
+        return 2;
+    }
+    s.base[0] = read_file(argv[1], "base.frag.glsl");
+    s.effect_length = read_text(argv[1], "noise.glsl", s.effect, sizeof s.effect);
+    read_library(&s, argv[2]);
     double each[4];
     for (size_t i = 0; i < 4; i++) {
         each[i] = time_link(&s, counts[i]) / (double)counts[i];
