@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- GLSL types and the field types that fit them ---------------------------------------------
- */
+/* ---- GLSL types and the field types that fit them ---- */
 
 typedef enum shape {
     SHAPE_FLOAT,

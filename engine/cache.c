@@ -27,8 +27,7 @@ static const size_t folder_limit = (size_t)64 << 20;
 /* Changes with everything that a stored program depends on and its texts do not tell. */
 static const char key_format[] = "plugray program 1";
 
-/* ---- In memory --------------------------------------------------------------------------------
- */
+/* ---- In memory ---- */
 
 static slot *find(slot *slots, size_t size, const uint8_t key[PLR_SHA256_SIZE]) {
     size_t at;
@@ -53,8 +52,7 @@ static bool grow(plr_cache *cache) {
     return true;
 }
 
-/* ---- Keys -------------------------------------------------------------------------------------
- */
+/* ---- Keys ---- */
 
 /* With its length, so that no two lists of texts give the same bytes. */
 static void add_text(plr_sha256 *hash, const char *text) {
@@ -80,8 +78,7 @@ static void make_key(const plr_cache *cache, const char *const texts[PLR_STAGE_C
     plr_sha256_finish(&hash, key);
 }
 
-/* ---- Compiling --------------------------------------------------------------------------------
- */
+/* ---- Compiling ---- */
 
 static const GLenum shader_kinds[PLR_STAGE_COUNT] = {
     [PLR_VERTEX] = GL_VERTEX_SHADER,
@@ -156,8 +153,7 @@ static GLuint build(const plr_gl *gl, const char *const texts[PLR_STAGE_COUNT],
     return 0;
 }
 
-/* ---- On disk ----------------------------------------------------------------------------------
- */
+/* ---- On disk ---- */
 
 static GLuint load(plr_cache *cache, const uint8_t key[PLR_SHA256_SIZE]) {
     const plr_gl *gl = cache->gl;
@@ -202,8 +198,7 @@ static bool has_binaries(const plr_gl *gl) {
     return formats > 0;
 }
 
-/* ---- All --------------------------------------------------------------------------------------
- */
+/* ---- All ---- */
 
 plr_cache *plr_cache_create(const plr_gl *gl, const char *folder) {
     plr_cache *cache = calloc(1, sizeof *cache);

@@ -69,8 +69,7 @@ void plr_cache_folder_close(plr_cache_folder *folder) {
     folder->path = NULL;
 }
 
-/* ---- Loading ----------------------------------------------------------------------------------
- */
+/* ---- Loading ---- */
 
 /* Reads a regular file of at most `limit` bytes. */
 static bool read_file(const char *path, size_t limit, plr_buffer *content) {
@@ -131,8 +130,7 @@ void plr_cache_folder_remove(plr_cache_folder *folder, const uint8_t key[PLR_SHA
     free(path);
 }
 
-/* ---- Storing ----------------------------------------------------------------------------------
- */
+/* ---- Storing ---- */
 
 /* A file of the cache. */
 typedef struct found {

@@ -125,8 +125,7 @@ bool plr_glsl_check(const char *const texts[PLR_STAGE_COUNT],
     return all;
 }
 
-/* ---- Counting ---------------------------------------------------------------------------------
- */
+/* ---- Counting ---- */
 
 /* Ranges of SPIR-V opcodes (SPIR-V specification, section 3.42). */
 typedef struct opcodes {

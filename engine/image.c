@@ -31,8 +31,7 @@ double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t
     return 0;
 }
 
-/* ---- fields of a scene ------------------------------------------------------------------------
- */
+/* ---- fields of a scene ---- */
 
 /* Integers of a field that describe an image: its sizes, then one integer for each pixel, whose
  * lowest byte is the last component (ISO/IEC 19775-1, 5.3.6 SFImage). */
@@ -106,8 +105,7 @@ bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags 
     return from_integers(field, 4, size, ints[0], PLR_CODE_BAD_VOLUME, image, diags);
 }
 
-/* ---- files ------------------------------------------------------------------------------------
- */
+/* ---- files ---- */
 
 static void flip_rows(plr_image *image) {
     size_t row = (size_t)image->width * image->components * sample_size(image->type);

@@ -14,8 +14,7 @@
 
 typedef bool (*encoder)(const plr_picture *picture, bool transparent, plr_buffer *out);
 
-/* ---- PNG --------------------------------------------------------------------------------------
- */
+/* ---- PNG ---- */
 
 /* 0..1 as a byte, rounded; beyond is clamped, NaN is 0. */
 static png_byte to_byte(float value) {
@@ -86,8 +85,7 @@ static bool encode_png(const plr_picture *picture, bool transparent, plr_buffer 
     return written;
 }
 
-/* ---- NPY --------------------------------------------------------------------------------------
- */
+/* ---- NPY ---- */
 
 static bool is_little_endian(void) {
     const unsigned short one = 1;
@@ -126,8 +124,7 @@ static bool encode_npy(const plr_picture *picture, bool transparent, plr_buffer 
            plr_buffer_append(out, picture->pixels, count * sizeof(float));
 }
 
-/* ---- EXR --------------------------------------------------------------------------------------
- */
+/* ---- EXR ---- */
 
 static int64_t exr_append(exr_const_context_t context, void *buffer, const void *data,
                           uint64_t length, uint64_t offset, exr_stream_error_func_ptr_t error) {
@@ -206,8 +203,7 @@ static bool encode_exr(const plr_picture *picture, bool transparent, plr_buffer 
     return is_fine(exr_finish(&exr)) && written;
 }
 
-/* ---- All --------------------------------------------------------------------------------------
- */
+/* ---- All ---- */
 
 static const struct {
     const char *ending;

@@ -86,8 +86,7 @@ typedef struct nifti {
                    __VA_ARGS__),                                                                   \
      false)
 
-/* ---- numbers of the header --------------------------------------------------------------------
- */
+/* ---- numbers of the header ---- */
 
 static void copy_field(const nifti *header, size_t offset, void *out, size_t width) {
     memcpy(out, header->source->data + offset, width);

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- files of a scene -------------------------------------------------------------------------
- */
+/* ---- files of a scene ---- */
 
 static bool load_beside(void *user, const char *referrer, const char *name, bool gunzip,
                         plr_place place, plr_bytes *bytes, plr_diags *diags) {
@@ -55,8 +54,7 @@ static bool load_urls(plr_scene *scene, const plr_node *node, plr_bytes *bytes, 
     return true;
 }
 
-/* ---- images ------------------------------------------------------------------------------------
- */
+/* ---- images ---- */
 
 /* A text header tells its own lines, a picture has none: its faults are reported at the url. */
 static bool decode_bytes(const plr_bytes *bytes, plr_place place, plr_image *image,
@@ -105,8 +103,7 @@ static bool check_image_size(const plr_image *image, plr_place place, plr_diags 
     return plr_volume_check_size(size, image->components, PLR_VOXEL_F32, place, diags);
 }
 
-/* ---- ComposedTexture3D --------------------------------------------------------------------------
- */
+/* ---- ComposedTexture3D ---- */
 
 /* The type that holds both without loss. */
 static plr_sample_type wider(plr_sample_type a, plr_sample_type b) {

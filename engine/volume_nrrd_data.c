@@ -66,8 +66,7 @@ static bool assign_axes(const nrrd *header, axes *a) {
     return true;
 }
 
-/* ---- data files -------------------------------------------------------------------------------
- */
+/* ---- data files ---- */
 
 /* The pattern with its one %d (%03d, %i, %u) replaced; false where it has another form. */
 static bool expand_pattern(nrrd_text pattern, int64_t number, char *name, size_t size) {
@@ -130,8 +129,7 @@ static bool file_name(const nrrd *header, uint64_t index, nrrd_text *list, char 
     return true;
 }
 
-/* ---- decoding ----------------------------------------------------------------------------------
- */
+/* ---- decoding ---- */
 
 /* Bytes that hold samples, and how messages speak of them. */
 typedef struct chunk {
@@ -245,8 +243,7 @@ static bool is_plausible(const nrrd *header, const chunk *from, uint64_t count) 
     return size <= most || short_of(header, from, most, size);
 }
 
-/* ---- all files ---------------------------------------------------------------------------------
- */
+/* ---- all files ---- */
 
 static bool take_memory(const nrrd *header, uint64_t count, void **out) {
     *out = malloc((size_t)count * plr_voxel_size(header->type));
@@ -317,8 +314,7 @@ static bool read_samples(const nrrd *header, uint64_t total, uint64_t count, voi
     return true;
 }
 
-/* ---- the volume --------------------------------------------------------------------------------
- */
+/* ---- the volume ---- */
 
 /* All samples of the file, and those up to the last that the volume needs. */
 static bool count_samples(const nrrd *header, const axes *a, uint64_t *total, uint64_t *needed) {
@@ -382,8 +378,7 @@ bool plr_nrrd_read_data(const nrrd *header, plr_volume *volume) {
     return false;
 }
 
-/* ---- geometry -----------------------------------------------------------------------------------
- */
+/* ---- geometry ---- */
 
 /* Axes of the file that are axes of space, in order. */
 static bool spatial_axes(const nrrd *header, int spatial[3]) {

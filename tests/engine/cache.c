@@ -166,8 +166,7 @@ static void test_many(const plr_gl *gl) {
     plr_cache_destroy(&cache);
 }
 
-/* ---- The folder, without GL -------------------------------------------------------------------
- */
+/* ---- The folder, without GL ---- */
 
 static bool has(plr_cache_folder *f, uint8_t number) {
     const uint8_t key[PLR_SHA256_SIZE] = {number};

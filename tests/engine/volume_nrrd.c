@@ -1,8 +1,7 @@
 /* NRRD files: types, byte orders, encodings, detached data, axes, geometry, errors. */
 #include "volume_test.h"
 
-/* ---- values ------------------------------------------------------------------------------------
- */
+/* ---- values ---- */
 
 static const struct {
     const char *names; /* separated by '|' */

@@ -36,8 +36,7 @@ void *memory_array(void *old, size_t count, size_t size) {
     return array;
 }
 
-/* ---- Reading ------------------------------------------------------------------------------------
- */
+/* ---- Reading ---- */
 
 static bool is_folder(FILE *stream) {
     struct stat status;
@@ -82,8 +81,7 @@ char *file_read(const char *path, size_t maximum, size_t *length, plr_diags *dia
     return text;
 }
 
-/* ---- Writing ------------------------------------------------------------------------------------
- */
+/* ---- Writing ---- */
 
 static bool cannot_write(const char *path, plr_diags *diags) {
     plr_diags_add(diags, PLR_CODE_OUTPUT, (plr_place){path, 0, 0}, "cannot be written: %s",

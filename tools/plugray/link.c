@@ -93,8 +93,7 @@ static const char *job_line(const void *user, const char *file, uint32_t line, s
     return text;
 }
 
-/* ---- Linking ------------------------------------------------------------------------------------
- */
+/* ---- Linking ---- */
 
 static plr_program *link_units(const link_job *job, plr_target_glsl glsl, plr_diags *diags) {
     const plr_sources *library = plr_catalog_library(job->catalog);
@@ -170,8 +169,7 @@ static plr_program *make_program(link_job *job, plr_target_glsl glsl) {
     return program;
 }
 
-/* ---- Writing ------------------------------------------------------------------------------------
- */
+/* ---- Writing ---- */
 
 static void write_link_map(const link_job *job, const plr_program *program, FILE *out) {
     write_map(out, program, job->stage, job->effects);

@@ -48,8 +48,7 @@ static const option_row options[] = {
 #undef OPTION
 };
 
-/* ---- Help ---------------------------------------------------------------------------------------
- */
+/* ---- Help ---- */
 
 static void print_wrapped(const char *text, int indent) {
     int column = indent;
@@ -115,8 +114,7 @@ void options_list(void) {
     }
 }
 
-/* ---- Reading ------------------------------------------------------------------------------------
- */
+/* ---- Reading ---- */
 
 static int fail_usage(const char *command, const char *format, va_list rest) PLR_PRINTF(2, 0);
 static int fail_usage(const char *command, const char *format, va_list rest) {

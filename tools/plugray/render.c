@@ -37,8 +37,7 @@ enum {
     STATS_JSON
 };
 
-/* ---- The command line ---------------------------------------------------------------------------
- */
+/* ---- The command line ---- */
 
 static bool has_picture_ending(const char *path) {
     static const char *const endings[] = {".png", ".exr", ".npy"};
@@ -124,8 +123,7 @@ static bool read_options(render_job *job) {
     return true;
 }
 
-/* ---- Drawing ------------------------------------------------------------------------------------
- */
+/* ---- Drawing ---- */
 
 static int open_engine(render_job *job) {
     char folder[4096];
@@ -181,8 +179,7 @@ static bool draw(render_job *job) {
     return drawn;
 }
 
-/* ---- Results ------------------------------------------------------------------------------------
- */
+/* ---- Results ---- */
 
 /* A decimal number with a leading digit; what is no number is said to be none. */
 static void print_decimal(double value, const char *after) {

@@ -121,8 +121,7 @@ int report_status(const plr_diags *diags, bool strict) {
     return faulty ? STATUS_INPUT : STATUS_FINE;
 }
 
-/* ---- JSON ---------------------------------------------------------------------------------------
- */
+/* ---- JSON ---- */
 
 static void json_diag(FILE *out, const plr_diag *diag) {
     fputs("{\"file\": ", out);
@@ -159,8 +158,7 @@ void report_json(FILE *out, const tool_report *reports, size_t count) {
     fputs("\n]\n", out);
 }
 
-/* ---- SARIF --------------------------------------------------------------------------------------
- */
+/* ---- SARIF ---- */
 
 static void sarif_uri(FILE *out, const char *file) {
     static const char plain[] = "-._~/!$&'()*+,;=@";
