@@ -447,6 +447,19 @@ static plr_directive_kind directive_kind(const char *text, uint32_t length) {
     return PLR_D_OTHER;
 }
 
+/* A string of a preprocessor line, as one token: what looks like a comment in it is none. */
+static bool lex_string(lexer *lx) {
+    uint32_t begin = lx->at, end = begin + 1;
+    while (end < lx->length && lx->text[end] != '"' && class_at(lx, end) != C_NEWLINE)
+        end++;
+    if (end >= lx->length || lx->text[end] != '"')
+        return false;
+    lx->at = end + 1;
+    push_token(lx, PLR_T_OTHER, begin, PLR_NONE);
+    lx->after_dot = false;
+    return true;
+}
+
 /* The rest of a preprocessor line, as tokens. */
 static void lex_directive_tokens(lexer *lx) {
     while (lx->at < lx->length) {
@@ -458,7 +471,8 @@ static void lex_directive_tokens(lexer *lx) {
             return;
         } else if (class_at(lx, lx->at) == C_SPACE) {
             lx->at++;
-        } else if (lx->text[lx->at] != '/' || !lex_comment(lx)) {
+        } else if (!(lx->text[lx->at] == '/' && lex_comment(lx)) &&
+                   !(lx->text[lx->at] == '"' && lex_string(lx))) {
             lex_atom(lx, lx->length);
         }
     }

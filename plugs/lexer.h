@@ -16,7 +16,7 @@ enum {
     PLR_T_DIRECTIVE,    /* value: the directive; its tokens follow, up to directive.end */
     PLR_T_PLUG,         /* value: the plug; its tokens follow, up to plug.end */
     PLR_T_DECLARATIONS, /* PLUG-DECLARATIONS */
-    PLR_T_OTHER = 127   /* a byte that GLSL does not know */
+    PLR_T_OTHER = 127   /* a byte that GLSL does not know; a string of a preprocessor line */
 };
 
 enum {

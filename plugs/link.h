@@ -87,6 +87,8 @@ typedef struct plr_function {
     uint32_t length;
     uint32_t effect;
     bool placed;
+    bool guarded; /* in some branch that is kept: whether it is there is known to the compiler only
+                   */
     const plr_item *item;
     struct plr_function *twin;      /* the same in another branch of a kept conditional */
     struct plr_function *next;      /* in its unit */
@@ -214,6 +216,7 @@ typedef struct plr_linking {
     bool uses_color, uses_data;    /* gl_FragColor, gl_FragData */
     uint32_t data_size;
     bool base_fault;
+    uint32_t compared; /* names with unknown ones */
 
     /* Versions. */
     int version;
@@ -289,6 +292,8 @@ void plr_add_sockets(plr_linking *l, plr_unit *unit);
 bool plr_find_functions(plr_linking *l, plr_scope *scope);
 void plr_name_functions(plr_linking *l, plr_scope *scope);
 void plr_commit_calls(plr_linking *l);
+/* The last token of a function's body; PLR_NONE: its braces are split among branches. */
+uint32_t plr_function_end(const plr_unit *unit, const plr_name *name);
 /* Finds the plugs of an effect's functions; false: one of them fits nowhere. */
 bool plr_place_functions(plr_linking *l, uint32_t effect);
 

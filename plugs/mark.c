@@ -186,8 +186,8 @@ static void mark_doubled(marker *m, uint32_t i) {
 }
 
 /* Whether a word that became reserved is a name here: a qualifier stands before another word, a
- * built-in function before a parenthesis. */
-static bool is_name_use(const marker *m, uint32_t i, uint8_t before) {
+ * built-in function before a parenthesis or alone in a macro (#define texture2D texture). */
+static bool is_name_use(const marker *m, uint32_t i, uint8_t before, bool in_directive) {
     const plr_token *token = &m->tokens[i];
     unsigned kinds = plr_word_get(m->lexed->idents.items[token->value].word)->kinds;
     uint8_t next = token[1].kind;
@@ -198,6 +198,8 @@ static bool is_name_use(const marker *m, uint32_t i, uint8_t before) {
     if (next == '(')
         return !(kinds & PLR_WORD_IS_BUILTIN) && before == PLR_T_IDENT &&
                !has_kind(m->lexed, i - 1, PLR_WORD_IS_KEYWORD | PLR_WORD_IS_QUALIFIER);
+    if (in_directive && kinds & PLR_WORD_IS_BUILTIN)
+        return false;
     return next != PLR_T_IDENT;
 }
 
@@ -222,7 +224,7 @@ static void mark_declared_words(marker *m) {
             (has_kind(lexed, i, PLR_WORD_IS_INOUT) || ident->word == PLR_WORD_const) &&
             (has_kind(lexed, i + 1, PLR_WORD_IS_INOUT) || is_word(lexed, i + 1, PLR_WORD_const)))
             mark_doubled(m, i);
-        if (is_name_use(m, i, i == barrier ? ';' : m->tokens[i - 1].kind))
+        if (is_name_use(m, i, i == barrier ? ';' : m->tokens[i - 1].kind, i < barrier))
             ident->flags |= PLR_IF_DECLARED;
     }
 }

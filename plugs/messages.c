@@ -51,6 +51,7 @@ const char *plr_effect_text(plr_linking *l, uint32_t effect) {
  */
 
 #define MAX_WORD 64
+#define MAX_COMPARED (1u << 20) /* names in one link */
 
 static uint32_t minimum(uint32_t a, uint32_t b) {
     return a < b ? a : b;
@@ -78,16 +79,18 @@ static uint32_t edit_distance(const char *a, uint32_t a_length, const char *b, u
 
 typedef struct nearest {
     const char *names[3];
-    uint32_t distances[3], count;
+    uint32_t lengths[3], distances[3], count;
 } nearest;
 
 static void consider(nearest *n, const plr_ident *wanted, const char *name, uint32_t length) {
-    uint32_t distance = edit_distance(wanted->text, wanted->length, name, length);
     uint32_t most = wanted->length < 5 ? 1 : wanted->length < 9 ? 2 : 3;
+    if (length > wanted->length + most || wanted->length > length + most)
+        return;
+    uint32_t distance = edit_distance(wanted->text, wanted->length, name, length);
     if (distance > most)
         return;
     for (uint32_t i = 0; i < n->count; i++)
-        if (strlen(n->names[i]) == length && memcmp(n->names[i], name, length) == 0)
+        if (n->lengths[i] == length && memcmp(n->names[i], name, length) == 0)
             return;
     uint32_t at = n->count;
     while (at > 0 && n->distances[at - 1] > distance)
@@ -97,21 +100,22 @@ static void consider(nearest *n, const plr_ident *wanted, const char *name, uint
     n->count += n->count < 3;
     for (uint32_t i = n->count - 1; i > at; i--) {
         n->names[i] = n->names[i - 1];
+        n->lengths[i] = n->lengths[i - 1];
         n->distances[i] = n->distances[i - 1];
     }
     n->names[at] = name;
+    n->lengths[at] = length;
     n->distances[at] = distance;
 }
 
 static const char *list_nearest(plr_linking *l, const plr_unit *unit, uint32_t plug) {
-    nearest n = {{NULL}, {0}, 0};
+    nearest n = {.count = 0};
     const plr_ident *wanted = &l->idents.items[plug];
-    for (size_t i = 0; i < l->sockets.count && i < 4096; i++) {
+    for (size_t i = 0; i < l->sockets.count && l->compared < MAX_COMPARED; i++, l->compared++) {
         const plr_socket *socket = l->sockets.items[i];
         const plr_ident *ident = &socket->unit->lexed->idents.items[socket->plug->name];
         if (socket->unit->scope->stage == unit->scope->stage)
-            consider(&n, wanted, plr_arena_copy(l->pass, ident->text, ident->length),
-                     ident->length);
+            consider(&n, wanted, ident->text, ident->length);
     }
     for (size_t i = 0; i < l->desc->known_plug_count; i++)
         if (l->desc->known_plugs[i].stage == unit->scope->stage)
@@ -119,8 +123,8 @@ static const char *list_nearest(plr_linking *l, const plr_unit *unit, uint32_t p
                      (uint32_t)strlen(l->desc->known_plugs[i].name));
     const char *text = "";
     for (uint32_t i = 0; i < n.count; i++)
-        text = plr_arena_format(l->pass, "%s%s\"%s\"", text, i ? " or " : "; did you mean ",
-                                n.names[i]);
+        text = plr_arena_format(l->pass, "%s%s\"%.*s\"", text, i ? " or " : "; did you mean ",
+                                (int)n.lengths[i], n.names[i]);
     return text;
 }
 

@@ -49,14 +49,13 @@ void plr_print_newline(plr_printer *p) {
         plr_put(p, "\n", 1);
 }
 
+#define MAX_INDENT 100
+
 /* The blanks that begin the line of a byte of the unit. */
 static void put_indent(plr_printer *p, uint32_t offset) {
     const char *text = p->unit->lexed->text;
-    uint32_t begin = offset;
-    while (begin > 0 && text[begin - 1] != '\n')
-        begin--;
-    uint32_t end = begin;
-    while (end < offset && (text[end] == ' ' || text[end] == '\t'))
+    uint32_t begin = (uint32_t)plr_source_line_start(p->unit->reading->source, offset), end = begin;
+    while (end < offset && end - begin < MAX_INDENT && (text[end] == ' ' || text[end] == '\t'))
         end++;
     plr_put(p, text + begin, end - begin);
 }
@@ -98,7 +97,16 @@ void plr_end_token(plr_printer *p, const plr_token *token) {
 /* The text of a token, where a NUL would end the program's. */
 static const char *printable_text(const plr_printer *p, const plr_token *token, size_t *length) {
     const char *text = plr_token_text(p->unit->lexed, token, length);
-    return token->kind == PLR_T_OTHER && *text == '\0' ? "?" : text;
+    if (token->kind != PLR_T_OTHER)
+        return text;
+    if (*length == 1)
+        return *text == '\0' ? "?" : text;
+    char *string = plr_arena_copy(p->l->pass, text, *length);
+    for (size_t i = 0; i < *length; i++) /* compilers would see a comment or the text's end */
+        if (string[i] == '\0' ||
+            (string[i] == '/' && (string[i + 1] == '/' || string[i + 1] == '*')))
+            string[i] = '?';
+    return string;
 }
 
 /* A token as it is. */
@@ -325,38 +333,54 @@ static uint32_t statement_end(const plr_printer *p, uint32_t i, unsigned depth) 
     return i;
 }
 
-static void print_calls(plr_printer *p, plr_socket *socket, const char *head, const char *tail) {
+/* One call, in a line of its own. */
+static void print_call(plr_printer *p, plr_socket *socket, const plr_call *call, const char *head,
+                       const char *tail) {
     const plr_lexed *lexed = p->unit->lexed;
+    const plr_list *list = &lexed->lists.items[call->list];
+    uint32_t index = (uint32_t)p->calls.count;
+    *PLR_PUSH(p->l->arena, &p->calls) = (plr_written_call){socket, call->function};
+    plr_add_run(p, PLR_RUN_CALL + index, 0);
+    size_t runs = p->runs.count;
+    put_indent(p, socket->plug->offset);
+    plr_put(p, head, strlen(head));
+    plr_put(p, call->function->text, call->function->length);
+    plr_put(p, "(", 1);
+    for (uint32_t t = list->first; t < list->end;) {
+        p->fresh = true;
+        p->broken = false;
+        const plr_token *token = &lexed->tokens.items[t];
+        if (t > list->first && token[-1].offset + token[-1].length < token->offset)
+            plr_put(p, " ", 1);
+        t = token->kind == PLR_T_IDENT ? plr_print_ident(p, t) : (plr_copy_token(p, token), t + 1);
+        plr_flush(p);
+        plr_put_closers(p, t - 1);
+    }
+    plr_put(p, ");", 2);
+    plr_put(p, tail, strlen(tail));
+    p->runs.count = runs; /* the whole line stands for the call */
+    plr_put(p, "\n", 1);
+}
+
+/* A call that is there only if its function is. */
+static void print_guarded(plr_printer *p, plr_socket *socket, const plr_call *call,
+                          const char *head, const char *tail) {
+    plr_print_own(p, head);
+    plr_print_newline(p);
+    plr_print_own(p, plr_arena_format(p->l->pass, "#ifdef " PLR_HAS "%s\n", call->function->text));
+    print_call(p, socket, call, "", "");
+    plr_print_own(p, "#endif\n");
+    plr_print_own(p, tail);
+    plr_print_newline(p);
+}
+
+static void print_calls(plr_printer *p, plr_socket *socket, const char *head, const char *tail) {
     plr_flush(p);
     for (size_t i = 0; i < socket->calls.count; i++) {
         const plr_call *call = &socket->calls.items[i];
-        const plr_list *list = &lexed->lists.items[call->list];
-        uint32_t index = (uint32_t)p->calls.count;
-        *PLR_PUSH(p->l->arena, &p->calls) = (plr_written_call){socket, call->function};
         plr_print_newline(p);
-        plr_add_run(p, PLR_RUN_CALL + index, 0);
-        size_t runs = p->runs.count;
-        put_indent(p, socket->plug->offset);
-        if (i == 0)
-            plr_put(p, head, strlen(head));
-        plr_put(p, call->function->text, call->function->length);
-        plr_put(p, "(", 1);
-        for (uint32_t t = list->first; t < list->end;) {
-            p->fresh = true;
-            p->broken = false;
-            const plr_token *token = &lexed->tokens.items[t];
-            if (t > list->first && token[-1].offset + token[-1].length < token->offset)
-                plr_put(p, " ", 1);
-            t = token->kind == PLR_T_IDENT ? plr_print_ident(p, t)
-                                           : (plr_copy_token(p, token), t + 1);
-            plr_flush(p);
-            plr_put_closers(p, t - 1);
-        }
-        plr_put(p, ");", 2);
-        if (i + 1 == socket->calls.count)
-            plr_put(p, tail, strlen(tail));
-        p->runs.count = runs; /* the whole line stands for the call */
-        plr_put(p, "\n", 1);
+        (call->function->guarded ? print_guarded : print_call)(
+            p, socket, call, i == 0 ? head : "", i + 1 == socket->calls.count ? tail : "");
     }
     p->fresh = false;
     p->broken = true;

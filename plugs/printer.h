@@ -4,6 +4,9 @@
 
 #include "plugs/print.h"
 
+/* Macros that say which of the functions in branches that are kept are there: plr_has_plr3_plug. */
+#define PLR_HAS "plr_has_"
+
 /* Text without an origin of its own. */
 void plr_put(plr_printer *p, const char *text, size_t length);
 /* The text that is to be copied. */

@@ -55,6 +55,9 @@ static uint32_t print_plug_name(plr_printer *p, uint32_t token) {
         kind_after(p, tokens[open].value) == ';')
         return print_sequence(p, token, found, count);
     const plr_function *f = own ? own : count ? found[0] : NULL;
+    if (own && (own->twin ? own->twin : own)->guarded)
+        plr_push_closer(p, plr_function_end(p->unit, own->name),
+                        plr_arena_format(p->l->pass, "\n#define " PLR_HAS "%s\n", own->text));
     if (f)
         plr_replace_token(p, &tokens[token], f->text, f->length);
     else
@@ -75,12 +78,20 @@ static bool means_own(const plr_printer *p, const plr_binding *symbol, uint32_t 
     return false;
 }
 
+/* `texture` in "#define texture2D texture". */
+static bool is_alias(const plr_printer *p, uint32_t token) {
+    const plr_item *item = p->node->item;
+    return item->kind == PLR_ITEM_MACRO && token > item->first + 1 &&
+           plr_word_get(plr_token_ident(p->unit, item->first + 1)->word)->kinds &
+               (PLR_WORD_IS_TEXTURE | PLR_WORD_IS_SHADOW);
+}
+
 static void print_since(plr_printer *p, uint32_t token, const plr_ident *ident) {
     const plr_token *t = &p->unit->lexed->tokens.items[token];
     plr_binding *symbol = p->unit->refs[t->value];
     bool builtin = (plr_word_get(ident->word)->kinds & PLR_WORD_IS_BUILTIN) != 0;
     uint32_t length;
-    if (builtin && kind_after(p, token) == '(' &&
+    if (builtin && (kind_after(p, token) == '(' || is_alias(p, token)) &&
         !(symbol && symbol->function && means_own(p, symbol, token))) {
         plr_copy_token(p, t);
     } else if (symbol && !(t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN))) {

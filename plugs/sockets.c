@@ -43,6 +43,15 @@ void plr_add_sockets(plr_linking *l, plr_unit *unit) {
 /* ---- Functions ---------------------------------------------------------------------------------
  */
 
+uint32_t plr_function_end(const plr_unit *unit, const plr_name *name) {
+    const plr_token *tokens = unit->lexed->tokens.items;
+    uint32_t body = plr_active(unit->lexed, unit->activity, name->close + 1);
+    if (tokens[body].kind == '{')
+        return tokens[body].value;
+    uint32_t open = plr_active(unit->lexed, unit->activity, body + 1); /* of a macro */
+    return tokens[open].kind == '(' ? tokens[open].value : body;
+}
+
 /* One function in several branches of a conditional that is kept: only one of them will be. */
 static plr_function *find_twin(plr_function *first, const plr_function *function) {
     unsigned looked = 0;
@@ -78,6 +87,11 @@ static bool add_function(plr_linking *l, plr_unit *unit, const plr_item *item, c
     if (!*first || (*first)->item != item)
         *first = function;
     function->twin = find_twin(*first, function);
+    bool known = plr_function_end(unit, name) != PLR_NONE;
+    if (function->twin)
+        function->twin->guarded &= known;
+    else
+        function->guarded = known && item->kind == PLR_ITEM_GROUP;
     return true;
 }
 

@@ -42,6 +42,18 @@ const char *plr_token_text(const plr_lexed *lexed, const plr_token *token, size_
     return lexed->text + token->offset;
 }
 
+size_t plr_source_line_start(const plr_source *source, size_t offset) {
+    size_t low = 0, high = source->line_count;
+    while (low < high) { /* the lines that begin up to the offset */
+        size_t middle = low + (high - low) / 2;
+        if (source->lines[middle] <= offset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low ? source->lines[low - 1] : 0;
+}
+
 plr_place plr_source_place(const plr_source *source, size_t offset) {
     const plr_origin *origin = &source->origin;
     size_t low = 0, high = origin->break_count;

@@ -17,6 +17,8 @@ struct plr_source {
     void *block; /* the arrays of `lexed` and `cut` */
 };
 
+/* Where the line of a byte begins: O(log lines). */
+size_t plr_source_line_start(const plr_source *source, size_t offset);
 /* The place of a byte of the source: O(log lines). */
 plr_place plr_source_place(const plr_source *source, size_t offset);
 /* The text of a token, less splices; not terminated. */

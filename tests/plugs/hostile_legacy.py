@@ -291,3 +291,18 @@ void PLUG_texture_apply(inout vec4 fragment_color, const in vec3 normal_eye_frag
                         "/* PLUG: texture_apply (fragment_color, n) */\ngl_FragColor = fragment_color; }\n"})
     r.sound()
     r.check([s[1] for s in r.symbols] == ["threshold"], "the uniforms")
+
+
+@case
+def macros_for_old_words(link):
+    "content that defines the old words itself, for old and new GLSL"
+    r = link(change("c = texture2D(t, c.xy) + v.xyxy;", "#if __VERSION__ >= 130\n#define texture2D texture\n#define varying in\n"
+                    "#endif\nuniform sampler2D t;\nvarying vec2 v;"))
+    r.sound()
+    r.has("# define plr0_texture2D texture ")
+    r = link(change("c = f(t, c.xy) + TEX(t, c.xy);", "#define texture2D texture\n#define TEX texture2D\nuniform sampler2D t;\n"
+                    "vec4 f(sampler2D s, vec2 uv) { return texture2D(s, uv); }"))
+    r.sound()
+    r = link(change("c.r = SH(t, c.xyz) + SH2(t, c.xyz).r;", "#define SH(a, b) shadow2D(a, b).r\n#define SH2 shadow2D\n"
+                    "uniform sampler2DShadow t;"))
+    r.sound()

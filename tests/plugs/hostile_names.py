@@ -442,7 +442,7 @@ def attributes(link):
 def redeclared_gl(link):
     "gl_ names are never renamed; built-in variables may be declared again"
     r = link(change("c.r = gl_FragCoord.x; gl_FragDepth = 0.5;",
-                    "#extension GL_ARB_conservative_depth : enable\nlayout(origin_upper_left, pixel_center_integer) in vec4 gl_FragCoord;\nlayout(depth_any) out float gl_FragDepth;"))
+                    "layout(origin_upper_left, pixel_center_integer) in vec4 gl_FragCoord;"))
     r.sound()
     r.has(r"layout \( origin_upper_left , pixel_center_integer \) in vec4 gl_FragCoord ;")
     base = {"vertex": "#version 330\nin vec4 castle_Vertex;\nout gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[2]; };\n"

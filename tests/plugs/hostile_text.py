@@ -463,3 +463,37 @@ def map_is_complete(link):
             word = word.replace("plr0_", "").replace("plr1_", "")
             r.check(origin.startswith(word.split("(")[0]), f"{row[1]} is {word}")
     r.check({row[2] for row in r.map} >= {"-", "e0.frag", "e1.frag"}, "effects are named")
+
+
+@case
+def strings_of_directives(link):
+    "strings of preprocessor lines hide nothing and open nothing"
+    for line in ('#pragma message("/* PLUG: change (c) */")', '#pragma message("/* open")', '#pragma a "// b" c',
+                 '#pragma "void PLUG_change(inout vec4 c) { }"', "#pragma it's"):
+        r = link(line + "\n" + RED, RED)
+        r.sound()
+        r.called("change", [0, 1])
+
+
+@case
+def functions_in_one_branch(link):
+    "a plug function that is in one branch that is kept is called where it is defined, and only there"
+    for text in ("#ifdef GL_X\n" + RED + "#endif\n", "#ifdef GL_X\nvoid PLUG_change(inout vec4 c, float b) { }\n#else\n" + RED + "#endif\n",
+                 "#ifdef GL_X\n#elif UNKNOWN\n#ifndef GL_Y\n" + RED + "#endif\n#endif\n",
+                 "#ifndef GL_X\n" + RED + "#endif\nvoid PLUG_change(inout vec4 c) { c.g = 1.0; }\n"):
+        r = link(text, RED, base=BASE.replace("(color)", "(color, 1.0) (color)"))
+        r.sound()
+        r.check(r.calls("change")[0] == 0 and r.calls("change")[-1] == 1, "both effects are called")
+
+
+@case
+def many_plugs_in_a_line(link):
+    "calls of many plugs in one line cost no more than their text"
+    import time
+    start = time.monotonic()
+    r = link("void PLUG_change(inout vec4 c) { " + "/* PLUG: own (c) */ " * 8000 + "}",
+             *["void PLUG_own(inout vec4 c) { c.r = 1.0; }"] * 10)
+    r.check(r.status == 0 and time.monotonic() - start < 8.0, "8000 plugs, 10 effects")
+    start = time.monotonic()
+    r = link(*[f"void PLUG_zork{i}(inout vec4 c) {{ /* PLUG: own{i} (c) */ }}\n" for i in range(3000)])
+    r.check(r.status == 0 and time.monotonic() - start < 8.0, "3000 unknown plugs")
