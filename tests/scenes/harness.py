@@ -172,7 +172,7 @@ class Suite:
         os.makedirs(folder)
         return folder
 
-    def command(self, *arguments, files=None, status=0, folder=None):
+    def command(self, *arguments, files=None, status=0, folder=None, timeout=120):
         """Runs the program in a folder that holds `files` (name -> text or bytes)."""
         folder = folder or self.new_folder()
         for name, content in (files or {}).items():
@@ -186,7 +186,7 @@ class Suite:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            timeout=120,
+            timeout=timeout,
             check=False,
         )
         result = Result(
@@ -202,12 +202,12 @@ class Suite:
             )
         return result
 
-    def render(self, scene, *arguments, files=None, status=0, size="16x16", name=None):
+    def render(self, scene, *arguments, size="16x16", name=None, files=None, **options):
         """Draws scene text; its kind follows from its beginning."""
         name = name or ("scene.x3d" if scene.lstrip().startswith("<") else "scene.x3dv")
         return self.command(
             "render", name, "--size", size, "--no-cache", *arguments,
-            files={name: scene, **(files or {})}, status=status,
+            files={name: scene, **(files or {})}, **options,
         )
 
     def probe(self, scene, pixels, *arguments, **options):
