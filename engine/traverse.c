@@ -4,11 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* DEF and USE let a short file describe more nodes than any machine can draw. */
+enum {
+    MOST_VISITS = 250000
+};
+
 typedef struct walk {
     plr_arena *arena;
     plr_flat *flat;
     plr_diags *diags;
     plr_scope *scope;
+    size_t visits;
 } walk;
 
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix);
@@ -56,7 +62,7 @@ static void visit_children(walk *w, plr_node *node, const char *name, const plr_
     plr_scope *scope = PLR_NEW(w->arena, plr_scope), *outer = w->scope;
     scope->outer = outer;
     w->scope = scope;
-    for (size_t i = 0; i < children->count; i++)
+    for (size_t i = 0; i < children->count && w->visits <= MOST_VISITS; i++)
         visit(w, children->value.nodes[i], matrix);
     w->scope = outer;
 }
@@ -165,8 +171,17 @@ static const struct {
     {"KambiNavigationInfo", visit_navigation},
 };
 
+static bool is_too_much(walk *w, const plr_node *node) {
+    if (w->visits == MOST_VISITS)
+        plr_diags_add(w->diags, PLR_CODE_LIMIT, plr_node_place(node),
+                      "the scene has more than %d nodes where it uses some again and again; the "
+                      "rest is left out",
+                      MOST_VISITS);
+    return w->visits++ >= MOST_VISITS;
+}
+
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix) {
-    if (!node)
+    if (!node || is_too_much(w, node))
         return;
     const plr_field *visible = plr_node_field(node, "visible");
     if (visible && !plr_node_bool(node, "visible"))
@@ -182,7 +197,7 @@ static void visit(walk *w, plr_node *node, const plr_matrix *matrix) {
 void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags) {
     *flat = (plr_flat){0};
     plr_scope *top = PLR_NEW(arena, plr_scope);
-    walk w = {arena, flat, diags, top};
+    walk w = {arena, flat, diags, top, 0};
     plr_matrix identity = plr_matrix_identity();
     for (size_t i = 0; i < plr_scene_root_count(scene); i++)
         visit(&w, plr_scene_root(scene, i), &identity);
