@@ -44,8 +44,12 @@ bool ground_at(float angle, inout vec3 color) {
 #endif
 
 void PLUG_background_color(inout vec4 color, const in vec3 direction_eye) {
-    vec3 direction = normalize(inverse(mat3(nodeToEye)) * direction_eye);
-    float from_zenith = acos(clamp(direction.y, -1.0, 1.0));
+    /* 24.2.1: of the groups around it the background takes the turns, not the scales */
+    vec3 direction = direction_eye * mat3(unit_or_zero(nodeToEye[0].xyz),
+                                          unit_or_zero(nodeToEye[1].xyz),
+                                          unit_or_zero(nodeToEye[2].xyz));
+    /* not acos: it loses digits at small angles, and Mesa's is coarse everywhere */
+    float from_zenith = atan(length(direction.xz), direction.y);
     color.rgb = sky_at(from_zenith);
 #if HAS_GROUND
     ground_at(3.14159265358979 - from_zenith, color.rgb);

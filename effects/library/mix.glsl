@@ -20,14 +20,19 @@ void volume_mix_add(inout VolumeMix mixed, const in vec4 color, const in float l
     mixed.depth += depth;
 }
 
+/* What an optical depth hides: 1 - exp(-depth). That loses its digits where little is hidden, as in
+ * many short steps: there the series. */
+float opacity_of_depth(const in float depth) {
+    if (depth < 0.02)
+        return depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0)));
+    return 1.0 - exp(-depth);
+}
+
 /* Straight colour and the opacity of the step. */
 vec4 volume_mix_color(const in VolumeMix mixed) {
     if (mixed.opaques > 0.0)
         return vec4(mixed.opaque / mixed.opaques, 1.0);
     if (!(mixed.depth > 0.0))
         return vec4(0.0);
-    /* 1 - exp(-x) loses its digits for small x: there the series */
-    float x = mixed.depth;
-    float opacity = x < 0.02 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0))) : 1.0 - exp(-x);
-    return vec4(mixed.weighted / x, opacity);
+    return vec4(mixed.weighted / mixed.depth, opacity_of_depth(mixed.depth));
 }

@@ -164,6 +164,6 @@ void PLUG_volume_step(out vec4 color, out VolumeSample s, const in float t, cons
     classify_and_shade(color, s, t, span, origin_eye, direction_eye);
     /* opacity of this step: 1 - (1 - alpha)^(length / reference); opaque stays opaque */
     if (color.a < 1.0)
-        color.a = 1.0 - pow(1.0 - color.a, span * ray_speed / referenceLength);
+        color.a = opacity_of_depth(-log(1.0 - color.a) * span * ray_speed / referenceLength);
 }
 #endif

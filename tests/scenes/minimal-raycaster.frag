@@ -44,8 +44,11 @@ void main() {
         float span = i == steps - 1 ? leave - from : pace;
         vec2 at = vec2(clamp(texture(voxels, o + (from + 0.5 * span) * d).r, 0.0, 1.0), 0.0);
         vec4 color = clamp(texture(transferFunction, (at * (size - 1.0) + 0.5) / size), 0.0, 1.0);
-        if (color.a < 1.0)
-            color.a = 1.0 - pow(1.0 - color.a, span * speed / referenceLength);
+        if (color.a < 1.0) {
+            // 1 - exp(-x), with all its digits for small x
+            float x = -log(1.0 - color.a) * span * speed / referenceLength;
+            color.a = x < 0.02 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0))) : 1.0 - exp(-x);
+        }
         sum += (1.0 - sum.a) * vec4(color.rgb * color.a, color.a);
         if (1.0 - sum.a < transparencyLeft)
             break;
