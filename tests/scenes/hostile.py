@@ -110,7 +110,6 @@ def many_volumes():
     suite.check("drawn", numbers and numbers[3] >= opacity(9 / 255, 10, 1) - 1e-4, numbers)
 
 
-@suite.known_fault("groups that double at each level are walked through")
 @suite.case
 def doubling():
     "2^25 shapes in a few lines: an error in time"
