@@ -127,8 +127,9 @@ static void prepare_surface(plr_view *view, plr_surface *surface, const plr_leaf
                             plr_diags *diags) {
     plr_node *appearance = plr_node_child(leaf->node, "appearance");
     surface->to_world = leaf->to_world;
-    if (!plr_mesh_build(plr_node_child(leaf->node, "geometry"), &surface->mesh, diags))
-        return;
+    bool built = plr_mesh_build(plr_node_child(leaf->node, "geometry"), &surface->mesh, diags);
+    if (!built && view->engine)
+        return; /* else the effects on it are checked all the same */
     surface->blends = appearance && is_translucent(view, appearance);
     if (!compose_shader(view, surface, leaf, appearance))
         compose_standard(view, surface, leaf, appearance, diags);

@@ -30,6 +30,27 @@ static void measure(plr_view *view, plr_volume_state *state, const plr_image *im
     state->gradient_unit = plr_node_number(state->node, "gradientUnit");
 }
 
+/* One voxel in place of data that cannot be had. */
+static plr_image placeholder(const plr_view *view) {
+    plr_image image = {1, 1, 1, 1, PLR_UNORM8, calloc(1, 1)};
+    if (!image.samples)
+        longjmp(*view->arena.out_of_memory, 1);
+    return image;
+}
+
+static bool read_voxels(plr_view *view, const plr_node *node, plr_image *image, plr_diags *diags) {
+    const plr_node *voxels = voxels_node(node);
+    if (!voxels)
+        return false; /* a volume without voxels is empty space */
+    float range[2] = {0, 0};
+    plr_node_numbers(node, "valueRange", range, 2);
+    plr_volume volume = {0};
+    bool fine = plr_volume_from_node(view->scene, voxels, &volume, diags) &&
+                plr_volume_to_image(&volume, (double[]){range[0], range[1]}, image);
+    plr_volume_free(&volume);
+    return fine;
+}
+
 static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
                         plr_diags *diags) {
     *state = (plr_volume_state){.node = leaf->node, .to_world = leaf->to_world};
@@ -39,18 +60,12 @@ static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *
                       "the volume has no extent: its transformation is singular");
         return false;
     }
-    const plr_node *node = voxels_node(leaf->node);
-    if (!node)
-        return false; /* a volume without voxels is empty space */
-    float range[2] = {0, 0};
-    plr_node_numbers(leaf->node, "valueRange", range, 2);
-    plr_volume volume = {0};
     plr_image image = {0};
-    bool fine = plr_volume_from_node(view->scene, node, &volume, diags) &&
-                plr_volume_to_image(&volume, (double[]){range[0], range[1]}, &image);
-    plr_volume_free(&volume);
-    if (!fine)
-        return false;
+    if (!read_voxels(view, leaf->node, &image, diags)) {
+        if (view->engine)
+            return false;
+        image = placeholder(view); /* the effects on it are checked all the same */
+    }
     measure(view, state, &image);
     state->voxels = plr_textures_make(&view->textures, &image, 3, true);
     return state->voxel > 0;
