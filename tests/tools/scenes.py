@@ -67,6 +67,25 @@ check(all(isinstance(i["message"], str) and isinstance(i["notes"], list) for i i
 check_equal(json.loads(plugray.expect(0, "check", "--format", "json", "box.x3dv").stdout), [],
             "no problem is an empty array")
 
+missing = json.loads(plugray.expect(1, "check", "--format", "json", "nowhere.x3dv").stdout)
+check_equal([(i["file"], i["line"], i["column"]) for i in missing], [("nowhere.x3dv", 1, 1)],
+            "JSON has what concerns a whole file at 1:1, as the text has")
+# Data that cannot be had hide no faults of what would show them.
+plugray.write("lost.x3dv", VOLUME.replace("PixelTexture3D { image 1 2 2 2 0 255 0 255 0 255 0 255 }",
+                                          'ImageTexture3D { url "lost.nrrd" }').replace(
+    "renderStyle OpacityMapVolumeStyle { }",
+    """renderStyle OpacityMapVolumeStyle { transferFunction ImageTexture { url "lost.png" } }
+  effects Effect { language "GLSL" parts EffectPart { type "FRAGMENT" url "data:text/plain,
+    void PLUG_volume_classify(inout vec4 color, const in VolumeSample s) { color.a = amuont; }" } }"""))
+run = plugray.expect(1, "check", "lost.x3dv", stderr="lost.x3dv:7:86: error: ")
+check_equal(re.findall(r"^lost.x3dv:(\d+):\d+: error: .*\[(.*)\]$", run.stderr, re.M),
+            [("4", "missing-file"), ("5", "missing-file"), ("7", "glsl")],
+            "a missing volume does not hide its other faults")
+plugray.write("shapeless.x3dv", BOX.replace("amount; }", "amuont; }").replace(
+    "Box { size 2 2 2 }", "IndexedFaceSet { coordIndex [ 0 1 2 -1 ] }"))
+run = plugray.expect(1, "check", "shapeless.x3dv", stderr="shapeless.x3dv:10:66: error: ")
+check("shapeless.x3dv:14:29: error: " in run.stderr, "nor do faulty coordinates", run.stderr)
+
 run = plugray.expect(1, "check", "--format=sarif", "broken.x3dv", "warned.x3dv")
 sarif = json.loads(run.stdout)
 check_equal((sarif["version"], len(sarif["runs"])), ("2.1.0", 1), "SARIF is 2.1.0 with one run")

@@ -84,14 +84,23 @@ static void put_caret(FILE *out, const char *line, size_t length, uint32_t colum
     fputs("^\n", out);
 }
 
+/* What concerns a whole file stands at its first byte; what concerns none, nowhere. */
+static plr_place whole_file_first(plr_place place) {
+    if (!place.file)
+        return (plr_place){NULL, 0, 0};
+    if (!place.line)
+        return (plr_place){place.file, 1, 1};
+    return (plr_place){place.file, place.line, place.column ? place.column : 1};
+}
+
 void report_text(FILE *out, const tool_report *report) {
     for (size_t i = 0; i < plr_diags_count(report->diags); i++) {
         const plr_diag *diag = plr_diags_get(report->diags, i);
         plr_place place = diag->place;
         if (place.file) {
+            plr_place shown = whole_file_first(place);
             put_plain(out, place.file, strlen(place.file));
-            fprintf(out, ":%u:%u", place.line ? place.line : 1,
-                    place.line && place.column ? place.column : 1);
+            fprintf(out, ":%u:%u", shown.line, shown.column);
         } else {
             fputs("plugray", out);
         }
@@ -125,11 +134,11 @@ int report_status(const plr_diags *diags, bool strict) {
 
 static void json_diag(FILE *out, const plr_diag *diag) {
     fputs("{\"file\": ", out);
-    json_string(out, diag->place.file);
+    plr_place place = whole_file_first(diag->place);
+    json_string(out, place.file);
     fprintf(out,
             ", \"line\": %u, \"column\": %u, \"severity\": \"%s\", \"code\": \"%s\", \"message\": ",
-            diag->place.line, diag->place.column, plr_severity_text(diag->severity),
-            plr_code_text(diag->code));
+            place.line, place.column, plr_severity_text(diag->severity), plr_code_text(diag->code));
     json_string(out, diag->message);
 }
 
