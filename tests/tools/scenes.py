@@ -98,6 +98,10 @@ check(all(driver["rules"][r["ruleIndex"]]["id"] == r["ruleId"] for r in results)
 place = results[1]["locations"][0]["physicalLocation"]
 check_equal((place["artifactLocation"]["uri"], place["region"]["startLine"], place["region"]["startColumn"]),
             ("warned.x3dv", 14, 18), "each result has its place")
+plugray.write("steering.x3dv", BOX.replace("geometry Box {", "geometry Box { sise\u009b2J\x1b[2J\x7f 1"))
+run = plugray.run("check", "steering.x3dv")
+check("sise" in run.stderr and not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", run.stderr),
+      "text from files does not steer a terminal", ascii(run.stderr))
 plugray.write("umläut b.x3dv", BOX.replace("geometry Box {", '# "ä"\ngeometry Box { sise 1'))
 sarif = json.loads(plugray.expect(0, "check", "--format", "sarif", "umläut b.x3dv").stdout)
 results = [r for r in sarif["runs"][0]["results"] if r["ruleId"] == "unknown-field"]

@@ -47,13 +47,15 @@ static const char *find_line(const tool_report *report, plr_place place, size_t 
     return line ? line : own_line(place.file, place.line, length);
 }
 
-/* Text from files must not steer a terminal. */
+/* Text from files must not steer a terminal: controls, U+0080 to U+009F too, become blanks. */
 static void put_plain(FILE *out, const char *text, size_t length) {
-    for (size_t i = 0; i < length && text[i]; i++)
-        putc((unsigned char)text[i] < 0x20 && text[i] != '\t' ? ' '
-             : text[i] == 0x7f                                ? ' '
-                                                              : text[i],
-             out);
+    for (size_t i = 0; i < length && text[i]; i++) {
+        unsigned char byte = (unsigned char)text[i];
+        bool wide = byte == 0xc2 && i + 1 < length && ((unsigned char)text[i + 1] & 0xe0) == 0x80;
+        bool control = (byte < 0x20 && byte != '\t') || byte == 0x7f || wide;
+        putc(control ? ' ' : text[i], out);
+        i += wide;
+    }
 }
 
 static bool is_continuation(char byte) {
