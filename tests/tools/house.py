@@ -41,6 +41,10 @@ check_equal(lines[-1], "2 passed, 0 failed, 1 skipped", "single checks are count
 check_equal(status, 0, "all passed: status 0")
 check(any("no data" in line for line in lines), "what is skipped is listed", lines)
 
+lines, status = count(("a", "OK", "ok 1 - x\nnot ok 2 - y # TODO hard\nok 3 - z # TODO easy\n1..3\n"))
+check_equal((lines[-1], status), ("2 passed, 0 failed, 1 skipped", 0), "a known fault does not count as passed")
+check(any("y # TODO hard" in line for line in lines), "known faults are listed", lines)
+
 lines, status = count(("a", "FAIL", "ok 1 - x\nnot ok 2 - y\n1..2\n"))
 check_equal(lines[-1], "1 passed, 1 failed, 0 skipped", "failed checks are counted")
 check_equal(status, 1, "one failed: status 1")
