@@ -52,8 +52,8 @@ static int set_field(tool_scene *s, const tool_arguments *arguments, const char 
     if (!node) {
         status = usage_error(arguments, "--set: no node has the DEF name %s", def);
     } else if (!plr_node_field(node, field)) {
-        status = usage_error(arguments, "--set: %s, a %s, has no field %s", def,
-                             plr_node_type(node), field);
+        status = usage_error(arguments, "--set: %s (%s) has no field %s", def, plr_node_type(node),
+                             field);
     } else {
         s->set = text;
         plr_place place = {"--set", 1, (uint32_t)(equals - text) + 2};
