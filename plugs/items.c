@@ -248,7 +248,8 @@ static void read_word(cutter *c, header *h) {
         h->qualifiers |= qualifier_bit(word);
         return;
     }
-    if (declared && h->words == 0) {
+    if (declared && h->words == 0 && !h->is_struct &&
+        plr_word_get(word)->kinds & PLR_WORD_IS_QUALIFIER) {
         h->qualifiers |= qualifier_bit(word);
         return;
     }

@@ -280,6 +280,15 @@ plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint
 bool plr_same_tokens(const plr_unit *a, uint32_t a_first, uint32_t a_end, const plr_unit *b,
                      uint32_t b_first, uint32_t b_end);
 
+/* Whether a token names no symbol: only a macro of its own scope replaces members and locals. */
+static inline bool plr_is_plain(const plr_unit *unit, const plr_token *token,
+                                const plr_binding *symbol) {
+    bool macro = symbol && symbol->macro;
+    return (token->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN) &&
+            !(macro && symbol->scope == unit->scope)) ||
+           (token->flags & PLR_TF_LOCAL && !macro);
+}
+
 /* Whether a local variable has the name of a macro of the base, the library or another effect. */
 static inline bool plr_is_hidden_local(const plr_linking *l, const plr_unit *unit,
                                        const plr_token *token, const plr_binding *symbol) {

@@ -1,5 +1,10 @@
 #include "plugs/mark.h"
 
+/* A name that a local variable hides up to a token. */
+typedef struct hidden {
+    uint32_t ident, before /* its marker.local outside */, end;
+} hidden;
+
 typedef struct marker {
     plr_arena *arena;
     plr_lexed *lexed;
@@ -7,8 +12,11 @@ typedef struct marker {
     PLR_LIST(uint32_t) open;   /* brackets that wait for their match */
     PLR_LIST(size_t) branches; /* how many were open at each #if */
     bool balanced;             /* no conditional opens or closes a bracket on its own */
-    uint32_t *local, *seen;    /* function number by identifier */
+    uint32_t *local;           /* by identifier: the function in which it is hidden at the scan */
+    bool *in_macro;            /* by identifier: a #define of the unit names it */
     uint32_t function;
+    PLR_LIST(hidden) hidden;
+    PLR_LIST(uint32_t) blocks; /* closing braces of those that are open in the function */
 } marker;
 
 static bool has_kind(const plr_lexed *lexed, uint32_t token, unsigned kinds) {
@@ -208,11 +216,13 @@ static bool is_name_use(const marker *m, uint32_t i, uint8_t before, bool in_dir
 static void mark_declared_words(marker *m) {
     plr_lexed *lexed = m->lexed;
     uint32_t end = (uint32_t)lexed->tokens.count - 1;
-    uint32_t barrier = 0; /* the token after a directive */
+    uint32_t barrier = 0, name = 0; /* the token after a directive, and its first */
     for (uint32_t i = 0; i < end; i++) {
         const plr_token *token = &m->tokens[i];
-        if (token->kind == PLR_T_DIRECTIVE)
+        if (token->kind == PLR_T_DIRECTIVE) {
             barrier = lexed->directives.items[token->value].end;
+            name = i + 1;
+        }
         if (token->kind != PLR_T_IDENT || i == 0)
             continue;
         plr_ident *ident = &lexed->idents.items[token->value];
@@ -224,7 +234,7 @@ static void mark_declared_words(marker *m) {
             (has_kind(lexed, i, PLR_WORD_IS_INOUT) || ident->word == PLR_WORD_const) &&
             (has_kind(lexed, i + 1, PLR_WORD_IS_INOUT) || is_word(lexed, i + 1, PLR_WORD_const)))
             mark_doubled(m, i);
-        if (is_name_use(m, i, i == barrier ? ';' : m->tokens[i - 1].kind, i < barrier))
+        if (is_name_use(m, i, i == barrier ? ';' : m->tokens[i - 1].kind, i < barrier && i != name))
             ident->flags |= PLR_IF_DECLARED;
     }
 }
@@ -238,7 +248,7 @@ static void collect_parameters(marker *m, uint32_t open, uint32_t close) {
     for (uint32_t i = skip_inert(m->lexed, open + 1); i <= close; i = skip_inert(m->lexed, i + 1)) {
         uint8_t kind = m->tokens[i].kind;
         if (depth == 0 && (kind == ',' || i == close)) {
-            if (words >= 2) {
+            if (words >= 2 && !m->in_macro[m->tokens[name].value]) {
                 m->local[m->tokens[name].value] = m->function;
                 m->tokens[name].flags |= PLR_TF_LOCAL;
             }
@@ -254,31 +264,104 @@ static void collect_parameters(marker *m, uint32_t open, uint32_t close) {
     }
 }
 
+static bool ends_name(uint8_t kind) {
+    return kind == '=' || kind == ';' || kind == ',' || kind == '[';
+}
+
 /* A declaration `[const] Type name` followed by one of = ; , [ that begins at `i`: its name. */
 static uint32_t declared_at(const marker *m, uint32_t i) {
     while (has_kind(m->lexed, i, PLR_WORD_IS_QUALIFIER))
         i++;
-    if (m->tokens[i].kind != PLR_T_IDENT || has_kind(m->lexed, i, PLR_WORD_IS_KEYWORD))
+    bool words = m->tokens[i].kind == PLR_T_IDENT && m->tokens[i + 1].kind == PLR_T_IDENT;
+    if (!words || has_kind(m->lexed, i, PLR_WORD_IS_KEYWORD))
         return PLR_NONE;
-    const plr_token *name = &m->tokens[i + 1];
-    if (name->kind != PLR_T_IDENT || m->seen[name->value] == m->function)
-        return PLR_NONE;
-    uint8_t after = m->tokens[i + 2].kind;
-    return after == '=' || after == ';' || after == ',' || after == '[' ? i + 1 : PLR_NONE;
+    return ends_name(m->tokens[i + 2].kind) ? i + 1 : PLR_NONE;
 }
 
 static bool begins_statement(uint8_t before) {
-    return before == ';' || before == '{' || before == '}';
+    return before == ';' || before == '{' || before == '}' || before == ':';
 }
 
-/* One function body: what its parameters and the variables of its outermost block hide. A variable
- * hides only from the end of its declaration on, and only if no other meaning was used before. */
+/* Where the scope ends of what the header of a `for` declares; 0: that cannot be told. */
+static uint32_t loop_end(const marker *m, uint32_t open) {
+    const plr_token *tokens = m->tokens;
+    if (tokens[open].kind != '(' || tokens[open].value == PLR_NONE)
+        return 0;
+    uint32_t i = tokens[open].value + 1;
+    if (tokens[i].kind == '{')
+        return tokens[i].value == PLR_NONE ? 0 : tokens[i].value;
+    if (has_kind(m->lexed, i, PLR_WORD_IS_KEYWORD))
+        return 0;
+    for (; tokens[i].kind != ';'; i++) {
+        uint8_t kind = tokens[i].kind;
+        if (kind == PLR_T_DIRECTIVE || kind == PLR_T_PLUG || kind == '{' || kind == '}' ||
+            kind == PLR_T_END)
+            return 0;
+    }
+    return i;
+}
+
+/* The scan of a function's body. */
+typedef struct body_scan {
+    uint32_t pending;          /* the name whose declarator the scan stands in */
+    uint32_t end;              /* of its scope */
+    uint32_t nesting, outside; /* brackets since the declaration began; those around it */
+} body_scan;
+
+/* Whether a declaration begins at `i`: of a variable of the block, or of a loop. */
+static void begin_declaration(const marker *m, body_scan *scan, uint32_t i) {
+    uint32_t block = m->blocks.items[m->blocks.count - 1];
+    bool loop = is_word(m->lexed, i, PLR_WORD_for);
+    *scan = (body_scan){PLR_NONE, loop ? loop_end(m, i + 1) : block, 0, loop};
+    if (scan->end > 0 && scan->end <= block)
+        scan->pending = declared_at(m, loop ? i + 2 : i);
+}
+
+/* Behind its declarator a variable hides what has its name outside. */
+static void pass_declarator(marker *m, body_scan *scan, uint32_t i) {
+    const plr_token *tokens = m->tokens;
+    uint8_t kind = tokens[i].kind;
+    scan->nesting += kind == '(' || kind == '[' || kind == '{';
+    scan->nesting -= (kind == ')' || kind == ']' || kind == '}') && scan->nesting > 0;
+    if (i <= scan->pending || scan->nesting != scan->outside || (kind != ',' && kind != ';'))
+        return;
+    uint32_t ident = tokens[scan->pending].value;
+    *PLR_PUSH(m->arena, &m->hidden) = (hidden){ident, m->local[ident], scan->end};
+    m->local[ident] = m->function;
+    bool more = kind == ',' && tokens[i + 1].kind == PLR_T_IDENT && ends_name(tokens[i + 2].kind);
+    scan->pending = more ? i + 1 : PLR_NONE;
+}
+
+static void leave_scopes(marker *m, uint32_t i) {
+    while (m->hidden.count && m->hidden.items[m->hidden.count - 1].end <= i) {
+        const hidden *last = &m->hidden.items[--m->hidden.count];
+        m->local[last->ident] = last->before;
+    }
+}
+
+static void mark_token(marker *m, body_scan *scan, uint32_t i) {
+    plr_token *token = &m->tokens[i];
+    if (token->kind == PLR_T_IDENT && !(token->flags & PLR_TF_MEMBER) &&
+        !m->in_macro[token->value] && (m->local[token->value] == m->function || i == scan->pending))
+        token->flags |= PLR_TF_LOCAL;
+    if (scan->pending != PLR_NONE)
+        pass_declarator(m, scan, i);
+    if (token->kind == '{')
+        *PLR_PUSH(m->arena, &m->blocks) = token->value;
+    else if (token->kind == '}' && m->blocks.count > 1)
+        m->blocks.count--;
+}
+
+/* One function body: what its parameters and variables hide. */
 static void mark_body(marker *m, uint32_t open, uint32_t close) {
-    plr_token *tokens = m->tokens;
-    uint32_t depth = 1, conditionals = 0, pending = PLR_NONE, plug_end = 0;
+    uint32_t conditionals = 0, plug_end = 0;
     uint8_t before = '{';
+    body_scan scan = {.pending = PLR_NONE};
+    m->blocks.count = 0;
+    *PLR_PUSH(m->arena, &m->blocks) = close;
     for (uint32_t i = open + 1; i < close; i++) {
-        plr_token *token = &tokens[i];
+        const plr_token *token = &m->tokens[i];
+        leave_scopes(m, i);
         if (token->kind == PLR_T_PLUG)
             plug_end = m->lexed->plugs.items[token->value].end;
         if (i == plug_end)
@@ -290,28 +373,32 @@ static void mark_body(marker *m, uint32_t open, uint32_t close) {
             i = directive->end - 1;
             continue;
         }
-        if (depth == 1 && conditionals == 0 && i >= plug_end && begins_statement(before) &&
-            pending == PLR_NONE)
-            pending = declared_at(m, i);
-        if (token->kind == PLR_T_IDENT && !(token->flags & PLR_TF_MEMBER)) {
-            if (m->local[token->value] == m->function || i == pending)
-                token->flags |= PLR_TF_LOCAL;
-            m->seen[token->value] = m->function;
-        }
-        depth += token->kind == '{';
-        depth -= token->kind == '}';
-        if (token->kind == ';' && pending != PLR_NONE) {
-            m->local[tokens[pending].value] = m->function;
-            pending = PLR_NONE;
-        }
+        if (token->kind == PLR_T_IDENT && conditionals == 0 && i >= plug_end &&
+            scan.pending == PLR_NONE && begins_statement(before))
+            begin_declaration(m, &scan, i);
+        mark_token(m, &scan, i);
         before = token->kind;
+    }
+    leave_scopes(m, PLR_NONE);
+}
+
+/* Names in #defines: what they mean depends on where the macro is used, so all keep one name. */
+static void note_macros(marker *m) {
+    for (size_t d = 0; d < m->lexed->directives.count; d++) {
+        const plr_directive *directive = &m->lexed->directives.items[d];
+        for (uint32_t i = directive->token + 2;
+             directive->kind == PLR_D_DEFINE && i < directive->end; i++)
+            if (m->tokens[i].kind == PLR_T_IDENT &&
+                !(m->tokens[i].flags & (PLR_TF_PARAM | PLR_TF_MEMBER)))
+                m->in_macro[m->tokens[i].value] = true;
     }
 }
 
 static void mark_locals(marker *m) {
     const plr_lexed *lexed = m->lexed;
     m->local = PLR_NEW_ARRAY(m->arena, lexed->idents.count + 1, uint32_t);
-    m->seen = PLR_NEW_ARRAY(m->arena, lexed->idents.count + 1, uint32_t);
+    m->in_macro = PLR_NEW_ARRAY(m->arena, lexed->idents.count + 1, bool);
+    note_macros(m);
     for (uint32_t i = 0; m->tokens[i].kind != PLR_T_END; i++) {
         const plr_token *token = &m->tokens[i];
         if (token->kind == PLR_T_DIRECTIVE) {

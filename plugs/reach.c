@@ -79,8 +79,7 @@ static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
     if (symbol) {
         if (symbol->stamp == l->stamp)
             return;
-        if ((!symbol->macro && t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL)) ||
-            plr_is_hidden_local(l, unit, t, symbol))
+        if (plr_is_plain(unit, t, symbol) || plr_is_hidden_local(l, unit, t, symbol))
             return;
         symbol->stamp = l->stamp;
         add_edge(l, node, symbol, NULL);

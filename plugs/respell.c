@@ -92,7 +92,7 @@ static void print_since(plr_printer *p, uint32_t token, const plr_ident *ident) 
     bool builtin = (plr_word_get(ident->word)->kinds & PLR_WORD_IS_BUILTIN) != 0;
     uint32_t length;
     if (builtin && (kind_after(p, token) == '(' || is_alias(p, token)) &&
-        !(symbol && symbol->function && means_own(p, symbol, token))) {
+        !(symbol && (symbol->function || symbol->macro) && means_own(p, symbol, token))) {
         plr_copy_token(p, t);
     } else if (symbol && !(t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN))) {
         const char *text = plr_binding_text(p->l, symbol, &length);
@@ -201,9 +201,7 @@ uint32_t plr_print_ident(plr_printer *p, uint32_t token) {
     }
     if (action == PLR_ACTION_SPECIAL)
         return print_special(p, token);
-    bool plain =
-        t->flags & PLR_TF_PARAM ||
-        (t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL) && !(symbol && symbol->macro));
+    bool plain = t->flags & PLR_TF_PARAM || plr_is_plain(p->unit, t, symbol);
     if (action != PLR_ACTION_NAME || plain) {
         plr_copy_token(p, t);
     } else {

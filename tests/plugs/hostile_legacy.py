@@ -306,3 +306,9 @@ def macros_for_old_words(link):
     r = link(change("c.r = SH(t, c.xyz) + SH2(t, c.xyz).r;", "#define SH(a, b) shadow2D(a, b).r\n#define SH2 shadow2D\n"
                     "uniform sampler2DShadow t;"))
     r.sound()
+    r = link(change("c = texture(t, c.xy);", "#define texture(s, uv) texture2D(s, uv)\nuniform sampler2D t;"),
+             change("c = texture(t, c.xy, 1.0);", "uniform sampler2D t;"), change("c.r = texture;", "#define texture (1.0 + 2.0)"))
+    r.sound()
+    r = link(change("sample q; q.x = 1.0; c.r = q.x; texture r; r.y = 2.0; c.g = r.y;",
+                    "struct sample { float x; };\nstruct texture { float y; };"))
+    r.sound()

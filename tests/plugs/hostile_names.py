@@ -642,3 +642,38 @@ def used_across_stages(link):
         r = link(RED, base=base, stage=stage)
         r.sound()
         r.has("point")
+
+
+@case
+def scopes_of_locals(link):
+    "locals of inner blocks and loops, and lists of them, hide names only where they hold"
+    r = link(change("""
+    float x = 1.0, amount = amount + x, h = amount;
+    { float noise = noise(h); c.r = noise; { float u = u; c.g += u; } c.b = u; } c.g += noise(u);
+    for (int i = 0, N = N; i < N; i++) c.r += float(N); c.r += float(N);
+    for (float u = u, v = u; u < 1.0; u += v) { c.r += v; { float v = u; c.r += v; } } c.b += u;
+    for (int u = 0; u < 1; u++) if (u > 0) c.r += float(u); else { c.g += float(u); } c.b += u;
+    switch (int(c.r)) { case 0: float k = k; c.r += k; break; default: c.r += k; }
+    c.a = k;""", "uniform float amount, u;\nconst int N = 2;\nconst float k = 1.0;\nfloat noise(float x) { return x; }"))
+    r.sound()
+    r.has(r"amount = plr0_amount \+ x , h = amount ;")
+    r.has(r"\{ float u = plr0_u ; c \. g \+ = u ; \} c \. b = plr0_u ;")
+    r = link(change("{ float h = 1.0; c.b = h; } for (int b = 0; b < 2; b++) { c.b += float(b); c.h2 = c.b; } /* PLUG: own (c) */",
+                    "#define h2 g"),
+             change("/* PLUG: last (c) */ c.r = h;", "#define h 2.0\n#define b 3.0\n#define rg 4.0")
+             + "void PLUG_own(inout vec4 c) { c.a = 1.0; }\n",
+             "struct S { float h; vec2 b; };\nvoid PLUG_last(inout vec4 c) { S s; s.h = c.b; s.b = c.rg; { float h = s.h; "
+             "c.r = h; } for (int b = 0, h = 1; b < h; b++) { c.g += s.b.x; } c.r += f(c.r, c.g) + rg(); }\n"
+             "float f(float b, float h) { return b + h; }\nfloat rg() { return 1.0; }\n")
+    r.sound()
+    r.has(r"struct plr2_S \{ float h ; vec2 b ; \}")
+    r.check(". plr" not in r.body("plr2_last"), "members of one effect are not macros of another")
+
+
+@case
+def macros_see_locals(link):
+    "a macro that names what is a parameter or local where it is used"
+    r = link(change("float g = 2.0; c.r = TWICE + f(c.g) + g;", "uniform float g, tex;\n#define TWICE (g * 2.0)\n#define AT (tex + 1.0)\n"
+                    "float f(float tex) { return AT; }"))
+    r.sound()
+    r.check([s[1] for s in r.symbols] == [] or r.text.count("plr0_g = 2.0") == 1, "the local is meant")
