@@ -340,7 +340,7 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     }
     if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
         strcmp(symbol->name, "transferFunction") == 0 &&
-        !(binding->node && plr_node_child(binding->node, symbol->name))) {
+        !plr_textures_in(k->textures, binding->node, symbol->name)) {
         slot->source = SLOT_DEFAULT_RAMP;
         return true;
     }

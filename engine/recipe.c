@@ -88,16 +88,17 @@ size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, 
     if (!units->count)
         return 0;
     define_list defines = {0};
-    for (size_t i = 0; i < extra_count; i++)
-        *PLR_PUSH(k->arena, &defines) = extra[i];
     if (binding.node)
         field_defines(k, &defines, binding.node, "", 1);
+    for (size_t i = 0; i < extra_count; i++) /* the last one of a name counts */
+        *PLR_PUSH(k->arena, &defines) = extra[i];
     plr_effect effect = {.name = name,
                          .sources = units->items,
                          .source_count = units->count,
                          .defines = defines.items,
                          .define_count = defines.count,
                          .attached = attached,
+                         .only_attached = attached != 0,
                          .builtin = true};
     if (binding.node)
         effect.place = plr_node_place(binding.node);

@@ -75,6 +75,12 @@ plr_texture *plr_textures_get(plr_textures *t, const plr_node *node) {
     return NULL;
 }
 
+plr_texture *plr_textures_in(plr_textures *t, const plr_node *node, const char *field) {
+    const plr_node *child = node ? plr_node_child(node, field) : NULL;
+    plr_texture *texture = child ? plr_textures_get(t, child) : NULL;
+    return texture && !texture->failed ? texture : NULL;
+}
+
 plr_texture *plr_textures_make(plr_textures *t, plr_image *image, int dimensions, bool voxels) {
     plr_texture *texture = push_texture(t, (plr_texture){.dimensions = dimensions,
                                                          .components = image->components,

@@ -31,6 +31,8 @@ typedef struct plr_textures {
 
 /* The texture of a node, loaded now if it is not yet; NULL if the node is no texture. */
 plr_texture *plr_textures_get(plr_textures *textures, const plr_node *node);
+/* The texture in a node's field, where there is one and it could be had; else NULL. */
+plr_texture *plr_textures_in(plr_textures *textures, const plr_node *node, const char *field);
 /* A texture that the engine makes from an image (which it takes over). */
 plr_texture *plr_textures_make(plr_textures *textures, plr_image *image, int dimensions,
                                bool voxels);

@@ -56,6 +56,13 @@ static bool load_urls(plr_scene *scene, const plr_node *node, plr_bytes *bytes, 
 
 /* ---- images ---- */
 
+/* A field whose value was refused has no value but the value's place; that is reported already. */
+static bool is_refused(const plr_node *texture, const plr_field *image) {
+    plr_place own = plr_node_place(texture);
+    return image && !image->given &&
+           (image->place.line != own.line || image->place.column != own.column);
+}
+
 /* A text header tells its own lines, a picture has none: its faults are reported at the url. */
 static bool decode_bytes(const plr_bytes *bytes, plr_place place, plr_image *image,
                          plr_diags *diags) {
@@ -67,8 +74,9 @@ static bool decode_bytes(const plr_bytes *bytes, plr_place place, plr_image *ima
 bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,
                             plr_diags *diags) {
     memset(image, 0, sizeof *image);
+    const plr_field *pixels = plr_node_field(texture, "image");
     if (plr_node_is(texture, "PixelTexture"))
-        return plr_image_from_sfimage(plr_node_field(texture, "image"), image, diags);
+        return !is_refused(texture, pixels) && plr_image_from_sfimage(pixels, image, diags);
     if (!plr_node_is(texture, "ImageTexture")) {
         plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(texture),
                       "%s is not read as an image", plr_node_type(texture));
@@ -197,7 +205,8 @@ static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_volume *v
                         plr_diags *diags) {
     (void)scene;
     plr_image image;
-    if (!plr_image_from_image3d(plr_node_field(texture, "image"), &image, diags))
+    const plr_field *field = plr_node_field(texture, "image");
+    if (is_refused(texture, field) || !plr_image_from_image3d(field, &image, diags))
         return false;
     bool ok = check_image_size(&image, plr_node_place(texture), diags);
     if (ok)

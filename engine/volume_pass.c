@@ -89,7 +89,7 @@ static void add_style(style_list *list, plr_node *node) {
     const plr_define defines[] = {{"LEADING", list->leading ? "1" : "0"},
                                   {"voxels_COMPONENTS", list->components},
                                   {"transferFunction_DIMENSIONS", "2"}};
-    bool has_function = node && plr_node_child(node, "transferFunction");
+    bool has_function = plr_textures_in(list->view->kitchen.textures, node, "transferFunction");
     plr_define *extra = PLR_NEW_ARRAY(arena, 3, plr_define);
     memcpy(extra, defines, sizeof defines);
     size_t done = plr_recipe_builtin(&list->view->kitchen, list->recipe,

@@ -267,7 +267,7 @@ bool x3d_value(x3d_build *build, plr_node *node, size_t index, x3d_lexer *lexer,
                            .owner = node,
                            .xml = xml,
                            .keep_newlines = strcmp(field->name, "url") == 0,
-                           .angle_factor = build->angle_factor};
+                           .angle_factor = build->angle_unit};
     plr_field old = *field;
     if (!x3d_value_read(build->scene, lexer, &desc, field)) {
         field->given = false;
@@ -416,7 +416,6 @@ bool x3d_add_unit(x3d_build *build, x3d_label category, double factor) {
         build->scene->length_unit = build->length_unit;
         build->scene->angle_unit = build->angle_unit;
     }
-    build->angle_factor = build->angle_unit / build->scene->angle_unit;
     return true;
 }
 

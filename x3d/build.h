@@ -68,10 +68,9 @@ typedef struct x3d_build {
     x3d_file *file;
     x3d_scope *scope;
     size_t depth;
-    struct x3d_build *outer; /* the file that asked for this one */
-    x3d_node_list nodes;     /* top level */
-    double length_unit, angle_unit;
-    double angle_factor; /* to the angle unit of the main file */
+    struct x3d_build *outer;        /* the file that asked for this one */
+    x3d_node_list nodes;            /* top level */
+    double length_unit, angle_unit; /* in metres and radians */
     bool is_main;
 } x3d_build;
 

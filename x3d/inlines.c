@@ -108,8 +108,7 @@ static void read_inlined(x3d_build *build, plr_node *node, x3d_file *file) {
                        .depth = build->depth,
                        .outer = build,
                        .length_unit = 1,
-                       .angle_unit = 1,
-                       .angle_factor = 1 / scene->angle_unit};
+                       .angle_unit = 1};
     if (!x3d_enter(&inner, node->place))
         return;
     x3d_read_text(&inner);
@@ -168,8 +167,7 @@ static x3d_scope *read_library(x3d_build *build, x3d_file *file, const char *key
                        .depth = build->depth,
                        .outer = build,
                        .length_unit = 1,
-                       .angle_unit = 1,
-                       .angle_factor = 1 / scene->angle_unit};
+                       .angle_unit = 1};
     if (!x3d_enter(&inner, (plr_place){file->name, 1, 1}))
         return inner.scope;
     x3d_read_text(&inner);

@@ -107,7 +107,6 @@ static void read_main(plr_scene *scene, x3d_file *file) {
                        .scope = x3d_scope_new(scene, NULL, NULL),
                        .length_unit = 1,
                        .angle_unit = 1,
-                       .angle_factor = 1,
                        .is_main = true};
     scene->scope = build.scope;
     x3d_read_text(&build);

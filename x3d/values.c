@@ -30,10 +30,33 @@ static void *new_item(reader *r) {
     return r->items + r->size * r->count++;
 }
 
+/* Fields of the table that are angles; an OrthoViewpoint's fieldOfView are four lengths. */
+static bool is_angle(const reader *r) {
+    static const struct {
+        const char *name;
+        plr_type type;
+    } angles[] = {{"beamWidth", PLR_SFFLOAT},   {"cutOffAngle", PLR_SFFLOAT},
+                  {"creaseAngle", PLR_SFFLOAT}, {"fieldOfView", PLR_SFFLOAT},
+                  {"startAngle", PLR_SFFLOAT},  {"endAngle", PLR_SFFLOAT},
+                  {"minAngle", PLR_SFFLOAT},    {"maxAngle", PLR_SFFLOAT},
+                  {"skyAngle", PLR_MFFLOAT},    {"groundAngle", PLR_MFFLOAT}};
+    for (size_t i = 0; r->desc->info && i < sizeof angles / sizeof *angles; i++)
+        if (r->desc->type == angles[i].type && strcmp(r->desc->field, angles[i].name) == 0)
+            return true;
+    return false;
+}
+
+/* Radians for one of the angles in the text. */
+static double angle_factor(const reader *r) {
+    return r->desc->angle_factor > 0 ? r->desc->angle_factor : 1;
+}
+
 static void check_range(reader *r, double value, size_t at) {
     const plr_field_info *info = r->desc->info;
     if (!info || r->out_of_range)
         return;
+    if (angle_factor(r) != 1 && is_angle(r))
+        value *= angle_factor(r);
     bool low = info->exclusive_minimum ? value <= info->minimum : value < info->minimum;
     bool high = info->exclusive_maximum ? value >= info->maximum : value > info->maximum;
     if (low || high) {
@@ -325,22 +348,11 @@ static bool is_default(const reader *r, const plr_field *field) {
            memcmp(field->value.any, r->items, r->count * r->size) == 0;
 }
 
-static bool is_angle(const reader *r) {
-    static const char *const names[] = {"beamWidth",  "cutOffAngle", "creaseAngle", "fieldOfView",
-                                        "startAngle", "endAngle",    "minAngle",    "maxAngle",
-                                        "skyAngle",   "groundAngle"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (r->kind == PLR_FLOAT && plr_type_components(r->desc->type) == 1 &&
-            strcmp(r->desc->field, names[i]) == 0)
-            return true;
-    return false;
-}
-
-/* An inlined file may count angles in another unit than the main file. */
+/* A file may count angles in another unit than radians. */
 static void turn_angles(reader *r) {
-    double factor = r->desc->angle_factor;
+    double factor = angle_factor(r);
     bool rotation = r->desc->type == PLR_SFROTATION || r->desc->type == PLR_MFROTATION;
-    if (factor == 0 || factor == 1 || (!rotation && !is_angle(r)))
+    if (factor == 1 || (!rotation && !is_angle(r)))
         return;
     float *numbers = (float *)(void *)r->items;
     for (size_t i = rotation ? 3 : 0; i < r->count; i += rotation ? 4 : 1)

@@ -12,7 +12,7 @@ typedef struct x3d_value_desc {
     const plr_node *owner;      /* its fields may follow the value, in Classic VRML; or NULL */
     bool xml;                   /* the value is the whole text, strings may lack quotes */
     bool keep_newlines;         /* in XML strings */
-    double angle_factor;        /* for rotations; 0: 1 */
+    double angle_factor;        /* radians for one in the text; 0: 1 */
 } x3d_value_desc;
 
 /* Reads a value of any type but nodes into `field` (value and count). Errors are reported; then the

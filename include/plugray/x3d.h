@@ -171,8 +171,9 @@ PLR_API plr_node *plr_scene_root(const plr_scene *scene, size_t index);
 PLR_API plr_node *plr_scene_find(const plr_scene *scene, const char *def);
 /* "3.3", "4.0"; "2.0" for VRML97. */
 PLR_API const char *plr_scene_version(const plr_scene *scene);
-/* Metres per length unit of the file, radians per angle unit (UNIT statements); 1 without. Values
- * of inlined files are converted to the units of the main file. */
+/* Metres per length unit of the file, radians per angle unit (UNIT statements); 1 without.
+ * Lengths of inlined files are scaled to the unit of the main file; fields that are angles hold
+ * radians, whatever the file's unit. */
 PLR_API double plr_scene_length_unit(const plr_scene *scene);
 PLR_API double plr_scene_angle_unit(const plr_scene *scene);
 /* META statements in order: name and content; NULL beyond the last. */
