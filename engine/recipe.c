@@ -21,6 +21,12 @@ static char *macro_tail(plr_arena *arena, const char *text) {
     return tail;
 }
 
+/* The voxels of a volume node, which the volume pass loads itself: to look at them here would load
+ * them twice. */
+static bool is_volume_data(const plr_node *node, const plr_field *field) {
+    return strcmp(field->name, "voxels") == 0 && plr_node_field(node, "opacityUnitDistance");
+}
+
 /* The macros that the conditionals of a built-in effect see; effects/README.md lists them. */
 static void field_defines(plr_kitchen *k, define_list *list, const plr_node *node,
                           const char *prefix, int depth) {
@@ -49,7 +55,7 @@ static void field_defines(plr_kitchen *k, define_list *list, const plr_node *nod
                 push_define(arena, list, plr_arena_format(arena, "%s_DIMENSIONS", path), "0");
                 push_define(arena, list, plr_arena_format(arena, "%s_COMPONENTS", path), "0");
             }
-            if (!child || strcmp(field->name, "metadata") == 0)
+            if (!child || strcmp(field->name, "metadata") == 0 || is_volume_data(node, field))
                 break;
             push_define(arena, list, plr_arena_format(arena, "%s_%s", path, plr_node_type(child)),
                         "1");

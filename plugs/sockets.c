@@ -213,6 +213,8 @@ static const plr_sockets *sockets_in_reach(const plr_linking *l, const plr_funct
     for (size_t i = 0; local && i < local->count; i++)
         if (local->items[i]->effect >= l->effect_count || !l->faulty[local->items[i]->effect])
             return local; /* what the instance has hides the rest */
+    if (attached && l->desc->effects[function->effect].only_attached)
+        return NULL;
     return plr_table_get(&l->by_plug, plug_key(stage, 0, function->plug));
 }
 

@@ -81,6 +81,7 @@ typedef struct plr_effect {
      * to it, directly or not, and where these have none of the name, those of everything before it.
      */
     size_t attached;
+    bool only_attached; /* attached, and never to use the plugs of anything else */
     bool builtin;  /* comes with the host: may be a target, stands before authors' in its place */
     bool disabled; /* keeps its number, contributes nothing */
     plr_placement placement;

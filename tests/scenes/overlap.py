@@ -200,7 +200,6 @@ def rays_of_their_own():
     suite.close("", got, expected([green]), 2e-4)
 
 
-@suite.known_fault("lights of one volume reach another that has no light")
 @suite.case
 def lit_mixture():
     "light in a mix: each volume with its own style"
