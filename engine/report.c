@@ -17,6 +17,20 @@ static size_t effect_in_words(const char *text, size_t effect_count) {
     return PLR_NO_EFFECT;
 }
 
+/* The column of the word that the message is about: its own, or one that the text quotes. */
+static uint32_t column_in_words(const plr_report *report, const plr_glsl_message *message) {
+    uint32_t column = 0;
+    if (message->word)
+        column = plr_program_find_word(report->program, report->stage, message->line, message->word,
+                                       strlen(message->word));
+    const char *quote = strchr(message->text, '"');
+    const char *end = quote ? strchr(quote + 1, '"') : NULL;
+    if (!column && end)
+        column = plr_program_find_word(report->program, report->stage, message->line, quote + 1,
+                                       (size_t)(end - quote - 1));
+    return column;
+}
+
 size_t plr_report_locate(const plr_report *report, const plr_glsl_message *message,
                          plr_mapped *mapped) {
     *mapped = (plr_mapped){.effect = PLR_NO_EFFECT};
@@ -27,10 +41,7 @@ size_t plr_report_locate(const plr_report *report, const plr_glsl_message *messa
             mapped->place = report->recipe->effects.items[effect].place;
         return mapped->effect = effect;
     }
-    uint32_t column = message->column;
-    if (!column && message->word)
-        column = plr_program_find_word(report->program, report->stage, message->line, message->word,
-                                       strlen(message->word));
+    uint32_t column = message->column ? message->column : column_in_words(report, message);
     if (!plr_program_map(report->program, report->stage, message->line, column, mapped))
         return PLR_NO_EFFECT;
     if (mapped->effect == PLR_NO_EFFECT && !mapped->place.file)

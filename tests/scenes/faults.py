@@ -261,4 +261,18 @@ def unreadable():
     suite.check("missing scene", missing.with_code("missing-file"), missing.errors)
 
 
+def scene_with(code):
+    return front_scene(quad('UnlitMaterial { }', effect(code, 'inputOutput SFFloat u 1')))
+
+
+@suite.case
+def quoted_word():
+    "where the compiler quotes the word that it means, the column is that word's"
+    text = scene_with("uniform float u;\nvoid PLUG_fragment_modify(inout vec4 c) { c.r = 1.0; u = 2.0; }")
+    found = suite.render(text, "--probe", "8,8", status=1).with_code("glsl")
+    line = next(i for i, l in enumerate(text.splitlines(), 1) if "u = 2.0" in l)
+    column = text.splitlines()[line - 1].index("u = 2.0") + 1
+    suite.equal("line and column", [(m[1], m[2]) for m in found], [(line, column)])
+
+
 suite.run()
