@@ -310,6 +310,41 @@ static void split_layers(plr_view *view, const bool *layers, plr_diags *diags) {
         *together = pass->casts[--pass->cast_count];
 }
 
+static size_t sampler_count(plr_view *view, const plr_cast *cast) {
+    plr_program *program = plr_link_recipe(&view->composer, &cast->pass.recipe, false, NULL);
+    size_t count = 0;
+    for (size_t i = 0; program && i < plr_program_symbol_count(program); i++) {
+        const plr_symbol *symbol = plr_program_symbol(program, i);
+        if (symbol->kind == PLR_UNIFORM && strncmp(symbol->type, "sampler", 7) == 0)
+            count += symbol->array ? symbol->array : 1;
+    }
+    plr_program_destroy(&program);
+    return count;
+}
+
+/* Volumes whose textures do not fit into one program with the others are cast apart. */
+static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) {
+    GLint most = 16; /* what GL 3.3 has at least */
+    if (view->engine)
+        view->engine->gl.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &most);
+    size_t samplers = sampler_count(view, cast);
+    while (samplers > (size_t)most && cast->count > 1) {
+        size_t kept = cast->count * (size_t)most / samplers;
+        kept = kept < 1 ? 1 : kept < cast->count ? kept : cast->count - 1;
+        plr_cast *rest = add_cast(view);
+        memcpy(rest->members, cast->members + kept, (cast->count - kept) * sizeof *rest->members);
+        rest->count = cast->count - kept;
+        cast->count = kept;
+        plr_diags_add(diags, PLR_CODE_LAYERED,
+                      plr_node_place(view->volumes.volumes[rest->members[0]].node),
+                      "%zu volumes have more textures than fit into one program: from here on they "
+                      "are layers, not mixed with those before",
+                      kept + rest->count);
+        build_recipe(view, cast, true, NULL);
+        samplers = sampler_count(view, cast);
+    }
+}
+
 static void make_default_ramp(plr_view *view) {
     plr_image ramp = {2, 1, 1, 4, PLR_FLOAT32, calloc(8, sizeof(float))};
     if (!ramp.samples)
@@ -335,6 +370,8 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         split_layers(view, use.layers, diags);
     for (size_t i = 0; i < pass->cast_count; i++) {
         plr_cast *cast = &pass->casts[i];
+        build_recipe(view, cast, !use.accumulates, NULL);
+        split_by_textures(view, cast, diags);
         build_recipe(view, cast, !use.accumulates, diags);
         cast->pass.built =
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
