@@ -6,7 +6,7 @@
 
 /* DEF and USE let a short file describe more nodes than any machine can draw. */
 enum {
-    MOST_VISITS = 250000
+    MOST_VISITS = 100000
 };
 
 typedef struct walk {
