@@ -169,6 +169,9 @@ static const struct {
     {"X3DBackgroundNode", visit_background},
     {"NavigationInfo", visit_navigation},
     {"KambiNavigationInfo", visit_navigation},
+    {"Fog", not_drawn},
+    {"LocalFog", not_drawn},
+    {"ClipPlane", not_drawn},
 };
 
 static bool is_too_much(walk *w, const plr_node *node) {

@@ -146,6 +146,18 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
     plr_pass_lights(view, recipe, scope, *attached, index);
 }
 
+/* What a scene may say and is not drawn yet is not passed over in silence. */
+static void warn_of_fields(const plr_node *volume, plr_diags *diags) {
+    static const char *const later[] = {"cropMin", "cropMax", "clipPlanes", "fileGeometry",
+                                        "writeDepth"};
+    for (size_t i = 0; i < sizeof later / sizeof *later; i++) {
+        const plr_field *field = plr_node_field(volume, later[i]);
+        if (field && field->given)
+            plr_diags_add(diags, PLR_CODE_NOT_DRAWN, field->place,
+                          "the field '%s' has no effect on the picture yet", later[i]);
+    }
+}
+
 /* Keeps the volumes that have data and an enabled style. */
 static void find_usable(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
@@ -154,6 +166,7 @@ static void find_usable(plr_view *view, plr_diags *diags) {
     pass->leaves = PLR_NEW_ARRAY(&view->arena, leaf_count + 1, const plr_leaf *);
     for (size_t i = 0; i < leaf_count; i++) {
         const plr_leaf *leaf = &view->flat.volumes.items[i];
+        warn_of_fields(leaf->node, diags);
         if (!any_enabled(plr_node_child(leaf->node, "renderStyle")) ||
             !load_volume(view, leaf, &pass->volumes[pass->count], diags))
             continue;
