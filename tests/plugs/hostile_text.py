@@ -489,11 +489,15 @@ def functions_in_one_branch(link):
 @case
 def many_plugs_in_a_line(link):
     "calls of many plugs in one line cost no more than their text"
-    import time
-    start = time.monotonic()
+    import resource
+
+    def cpu_seconds():  # of the programs that were run; other load on the machine does not count
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
+    start = cpu_seconds()
     r = link("void PLUG_change(inout vec4 c) { " + "/* PLUG: own (c) */ " * 8000 + "}",
              *["void PLUG_own(inout vec4 c) { c.r = 1.0; }"] * 10)
-    r.check(r.status == 0 and time.monotonic() - start < 8.0, "8000 plugs, 10 effects")
-    start = time.monotonic()
+    r.check(r.status == 0 and cpu_seconds() - start < 8.0, "8000 plugs, 10 effects")
+    start = cpu_seconds()
     r = link(*[f"void PLUG_zork{i}(inout vec4 c) {{ /* PLUG: own{i} (c) */ }}\n" for i in range(3000)])
-    r.check(r.status == 0 and time.monotonic() - start < 8.0, "3000 unknown plugs")
+    r.check(r.status == 0 and cpu_seconds() - start < 8.0, "3000 unknown plugs")

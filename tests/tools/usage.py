@@ -3,6 +3,8 @@
 
 import os
 import pty
+import re
+import select
 import subprocess
 import sys
 import time
@@ -73,21 +75,39 @@ check_equal(sorted(path.name for path in plugray.folder.iterdir()), ["base.frag"
 # ---- progress
 
 
-def read_slowly(stderr):
-    """Runs check on standard input that comes after more than a second."""
+def read_slowly(stderr, wait):
+    """Runs check on standard input that comes when `wait` returns."""
     with subprocess.Popen([plugray.program, "check", "-"], stdin=subprocess.PIPE, stderr=stderr) as process:
-        time.sleep(1.6)
+        wait()
         process.stdin.write(plugray.read("box.x3dv").encode())
         process.stdin.close()
         return process.wait(), process.stderr.read() if process.stderr else b""
 
 
-check_equal(read_slowly(subprocess.PIPE), (0, b""), "no progress where standard error is no terminal")
+def read_until(terminal, text, seconds=60):
+    """What comes from the terminal until it holds `text` or the time is over."""
+    shown, end = b"", time.monotonic() + seconds
+    while text not in shown and time.monotonic() < end:
+        if select.select([terminal], [], [], 0.1)[0]:
+            shown += os.read(terminal, 4096)
+    return shown
+
+
+check_equal(read_slowly(subprocess.PIPE, lambda: time.sleep(1.6)), (0, b""),
+            "no progress where standard error is no terminal")
 ours, theirs = pty.openpty()
-status, _ = read_slowly(theirs)
-os.close(theirs)
-shown = os.read(ours, 4096)
-os.close(ours)
-check(status == 0 and b"plugray: reading, 1 s" in shown, "progress on a terminal after a second", shown)
+shown = b""
+
+
+def wait_for_progress():
+    global shown
+    shown = read_until(ours, b" s")
+
+
+status, _ = read_slowly(theirs, wait_for_progress)
+check(status == 0 and re.search(rb"plugray: reading, \d+ s", shown), "progress on a terminal after a second", shown)
+shown = read_until(ours, b"\r\x1b[K")
 check(shown.endswith(b"\r\x1b[K"), "the line is taken away at the end", shown)
+os.close(theirs)
+os.close(ours)
 done()

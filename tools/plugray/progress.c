@@ -11,19 +11,28 @@ static struct {
     pthread_cond_t changed;
     pthread_t thread;
     const char *phase;
-    time_t start;
+    struct timespec start;
     bool running, shown, end;
 } state = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+
+/* Whole seconds since the phase began; half a tenth early, as a wait may end a little before its
+ * time. */
+static long seconds_shown(const struct timespec *now) {
+    double seconds = (double)(now->tv_sec - state.start.tv_sec) +
+                     1e-9 * (double)(now->tv_nsec - state.start.tv_nsec);
+    return (long)(seconds + 0.05);
+}
 
 static void *show(void *unused) {
     (void)unused;
     pthread_mutex_lock(&state.mutex);
     while (!state.end) {
-        struct timespec next;
-        clock_gettime(CLOCK_REALTIME, &next);
-        next.tv_sec++;
-        pthread_cond_timedwait(&state.changed, &state.mutex, &next);
-        long seconds = (long)(time(NULL) - state.start);
+        struct timespec now;
+        clock_gettime(CLOCK_REALTIME, &now);
+        now.tv_sec++;
+        pthread_cond_timedwait(&state.changed, &state.mutex, &now);
+        clock_gettime(CLOCK_REALTIME, &now);
+        long seconds = seconds_shown(&now);
         if (state.end || seconds < 1)
             continue;
         fprintf(stderr, "\r\033[Kplugray: %s, %ld s", state.phase, seconds);
@@ -44,7 +53,7 @@ void progress(const char *phase) {
     state.end = !phase;
     pthread_cond_signal(&state.changed);
     if (start) {
-        state.start = time(NULL);
+        clock_gettime(CLOCK_REALTIME, &state.start);
         state.running = pthread_create(&state.thread, NULL, show, NULL) == 0;
     }
     pthread_mutex_unlock(&state.mutex);
