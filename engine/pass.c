@@ -22,17 +22,6 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
         add_light(view, recipe, &view->flat.global_lights.items[i], attached, volume);
 }
 
-void plr_pass_light_authors(plr_view *view, plr_recipe *recipe) {
-    size_t count = recipe->effects.count;
-    for (size_t i = 0; i < count; i++) {
-        plr_binding binding = recipe->bindings.items[i];
-        const plr_node_info *info =
-            binding.node ? plr_node_info_find(plr_node_type(binding.node)) : NULL;
-        if (info && plr_node_info_is(info, "X3DLightNode"))
-            plr_recipe_author_list(&view->kitchen, recipe, binding.node, i + 1, binding.volume);
-    }
-}
-
 void plr_pass_find(plr_view *view, plr_pass *pass) {
     if (pass->built)
         plr_bind_find(&view->kitchen, &view->engine->gl, &pass->recipe, pass->program, pass->built,

@@ -218,6 +218,18 @@ void plr_recipe_author_list(plr_kitchen *k, plr_recipe *recipe, const plr_node *
         plr_recipe_author(k, recipe, effects->value.nodes[i], attached, volume);
 }
 
+void plr_recipe_attached_authors(plr_kitchen *k, plr_recipe *recipe, const char *type) {
+    size_t count = recipe->effects.count;
+    for (size_t i = 0; i < count; i++) {
+        plr_binding binding = recipe->bindings.items[i];
+        const char *own = binding.node ? plr_node_type(binding.node) : "";
+        const plr_node_info *info = plr_node_info_find(own);
+        /* what else is bound to the node (a light's shadow) has another name */
+        if (info && plr_node_info_is(info, type) && strcmp(own, recipe->effects.items[i].name) == 0)
+            plr_recipe_author_list(k, recipe, binding.node, i + 1, binding.volume);
+    }
+}
+
 void plr_recipe_groups(plr_kitchen *k, plr_recipe *recipe, const plr_scope *scope, size_t attached,
                        size_t volume) {
     for (; scope; scope = scope->outer)

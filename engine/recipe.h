@@ -64,6 +64,9 @@ void plr_recipe_author(plr_kitchen *kitchen, plr_recipe *recipe, plr_node *effec
 /* The nodes of an MFNode field `effects`. */
 void plr_recipe_author_list(plr_kitchen *kitchen, plr_recipe *recipe, const plr_node *owner,
                             size_t attached, size_t volume);
+/* The effects in the fields `effects` of all nodes of an abstract type (lights, textures) that
+ * built-in effects of the recipe stand for, attached to these. */
+void plr_recipe_attached_authors(plr_kitchen *kitchen, plr_recipe *recipe, const char *type);
 /* The effects of the groups around a leaf, from inner to outer. */
 void plr_recipe_groups(plr_kitchen *kitchen, plr_recipe *recipe, const plr_scope *scope,
                        size_t attached, size_t volume);

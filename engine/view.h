@@ -79,10 +79,9 @@ void plr_background_prepare(plr_view *view);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
-/* The lights that reach a leaf, as built-in effects with their authors' effects to follow. */
+/* The lights that reach a leaf, as built-in effects. */
 void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,
                      size_t volume);
-void plr_pass_light_authors(plr_view *view, plr_recipe *recipe);
 
 /* ---- Drawing ---- */
 

@@ -224,7 +224,7 @@ static void build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_dia
                    &attached[i], diags);
     plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
                        (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
-    plr_pass_light_authors(view, recipe);
+    plr_recipe_attached_authors(&view->kitchen, recipe, "X3DLightNode");
     for (size_t i = 0; i < cast->count; i++)
         plr_recipe_author_list(k, recipe, pass->leaves[cast->members[i]]->node, attached[i],
                                cast->members[i]);

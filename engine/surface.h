@@ -1,0 +1,38 @@
+/* A shape on its way to a program: what adds built-in effects to its recipe, one file a subject. */
+#ifndef PLR_ENGINE_SURFACE_H
+#define PLR_ENGINE_SURFACE_H
+
+#include "engine/view.h"
+
+typedef struct plr_shape {
+    plr_view *view;
+    plr_surface *surface; /* its mesh is built */
+    const plr_leaf *leaf;
+    plr_node *appearance, *geometry; /* or NULL */
+    plr_recipe *recipe;
+    plr_diags *diags;
+    bool lit;        /* has normals: light may change it */
+    size_t material; /* attaches further built-in effects to the material's; 0: none */
+} plr_shape;
+
+/* A built-in effect by path, named as messages and targets say, bound to a node (NULL: to none).
+ * Returns what attaches others to it, 0 if there is none of that path. */
+size_t plr_shape_effect(plr_shape *shape, const char *path, const char *name, plr_node *node,
+                        size_t attached, const plr_define *extra, size_t extra_count);
+/* A macro of this effect alone, for plr_shape_effect; the value is copied. */
+plr_define plr_shape_define(plr_shape *shape, const char *name, int value);
+
+/* ---- In the order of calls ---- */
+
+void plr_shape_material(plr_shape *shape);
+void plr_shape_textures(plr_shape *shape);
+void plr_shape_lights(plr_shape *shape);
+/* Fog, clip planes, tone mapping and gamma. */
+void plr_shape_surroundings(plr_shape *shape);
+
+/* ---- State beside the program ---- */
+
+/* Whether the shape is drawn over what lies behind it, by its material and its textures. */
+bool plr_shape_blends(const plr_shape *shape);
+
+#endif
