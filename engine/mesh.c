@@ -11,20 +11,6 @@ void *plr_mesh_array(plr_arena *arena, size_t count, size_t size) {
     return array;
 }
 
-static void find_bounds(plr_mesh *mesh) {
-    for (int axis = 0; axis < 3; axis++) {
-        mesh->bounds[0][axis] = INFINITY;
-        mesh->bounds[1][axis] = -INFINITY;
-    }
-    for (size_t i = 0; i < (size_t)mesh->vertex_count * 3; i++) {
-        float value = mesh->positions[i];
-        if (value < mesh->bounds[0][i % 3])
-            mesh->bounds[0][i % 3] = value;
-        if (value > mesh->bounds[1][i % 3])
-            mesh->bounds[1][i % 3] = value;
-    }
-}
-
 /* Whether the node has the SFBool field and it is FALSE. */
 static bool is_false(const plr_node *node, const char *name) {
     const plr_field *field = plr_node_field(node, name);
@@ -45,7 +31,7 @@ static bool build(plr_arena *arena, const plr_node *geometry, plr_mesh *mesh, pl
     }
     if (!mesh->vertex_count)
         return false;
-    find_bounds(mesh);
+    plr_mesh_find_bounds(mesh);
     for (int i = 0; i < 6; i++)
         if (!isfinite(mesh->bounds[i / 3][i % 3])) {
             plr_diags_add(diags, PLR_CODE_BAD_GEOMETRY, plr_node_place(geometry),
@@ -77,8 +63,13 @@ bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) 
 void plr_mesh_free(plr_mesh *mesh) {
     free(mesh->positions);
     free(mesh->normals);
-    free(mesh->tex_coords);
+    for (int unit = 0; unit < PLR_MESH_TEX_UNITS; unit++)
+        free(mesh->tex_coords[unit]);
+    free(mesh->plane_coords);
+    free(mesh->box_coords);
     free(mesh->colors);
+    free(mesh->fog_coords);
+    free(mesh->line_distances);
     for (size_t i = 0; i < mesh->attribute_count; i++) {
         free(mesh->attributes[i].name);
         free(mesh->attributes[i].values);

@@ -113,34 +113,24 @@ static void normalize(float *normals, size_t count) {
     }
 }
 
-/* ISO/IEC 19775-1 13.3.6: s runs along the longest side of the bounding box from 0 to 1, t along
- * the second longest in the same measure; of equal sides x comes before y before z. */
-static float *default_tex_coords(plr_polygons *p, const plr_mesh *mesh) {
-    double low[3], size[3];
-    for (int axis = 0; axis < 3; axis++) {
-        double high = low[axis] = (double)mesh->positions[axis];
-        for (size_t i = 1; i < mesh->vertex_count; i++) {
-            low[axis] = fmin(low[axis], (double)mesh->positions[3 * i + (size_t)axis]);
-            high = fmax(high, (double)mesh->positions[3 * i + (size_t)axis]);
-        }
-        size[axis] = high - low[axis];
-    }
-    int s = size[1] > size[0] ? 1 : 0;
-    if (size[2] > size[s])
-        s = 2;
-    int t = s == 0 ? 1 : 0;
-    int other = 3 - s - t;
-    if (size[other] > size[t])
-        t = other;
-    float *tex = plr_mesh_array(p->arena, mesh->vertex_count, 4 * sizeof *tex);
-    double scale = size[s] > 0 ? 1 / size[s] : 0;
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const float *point = mesh->positions + 3 * i;
-        tex[4 * i] = (float)(((double)point[s] - low[s]) * scale);
-        tex[4 * i + 1] = (float)(((double)point[t] - low[t]) * scale);
-        tex[4 * i + 3] = 1;
-    }
-    return tex;
+/* A copy of the mapping by the bounding box. */
+static float *default_tex_coords(plr_polygons *p, plr_mesh *mesh) {
+    const float *mapping = plr_mesh_plane_coords(mesh);
+    if (!mapping)
+        longjmp(*p->arena->out_of_memory, 1);
+    float *copy = plr_mesh_array(p->arena, mesh->vertex_count, 4 * sizeof *copy);
+    memcpy(copy, mapping, mesh->vertex_count * 4 * sizeof *copy);
+    return copy;
+}
+
+static void fill_tex_coords(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
+    mesh->tex_coords_given = p->tex_given;
+    for (unsigned unit = 0; unit < PLR_MESH_TEX_UNITS; unit++)
+        if (p->tex_coords[unit])
+            mesh->tex_coords[unit] =
+                gather(p, v, p->tex_coords[unit], 4, offsetof(plr_corner, tex));
+        else if (unit < p->tex_units || unit == 0)
+            mesh->tex_coords[unit] = default_tex_coords(p, mesh);
 }
 
 static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
@@ -150,9 +140,9 @@ static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
     if (mesh->normals)
         normalize(mesh->normals, v->count);
     mesh->colors = gather(p, v, p->colors, 4, offsetof(plr_corner, color));
-    mesh->tex_coords = gather(p, v, p->tex_coords, 4, offsetof(plr_corner, tex));
-    if (!mesh->tex_coords && p->kind == PLR_MESH_TRIANGLES)
-        mesh->tex_coords = default_tex_coords(p, mesh);
+    plr_mesh_find_bounds(mesh);
+    if (p->kind == PLR_MESH_TRIANGLES)
+        fill_tex_coords(p, v, mesh);
     uint32_t *coords = PLR_NEW_ARRAY(p->arena, v->count, uint32_t);
     for (uint32_t i = 0; i < v->count; i++)
         coords[i] = v->items[i].coord;

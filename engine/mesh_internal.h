@@ -25,11 +25,14 @@ typedef struct plr_polygons {
     const plr_node *node;
     plr_diags *diags;
     plr_mesh_kind kind;
-    bool concave;            /* faces may be concave */
-    const float *points;     /* 3 each */
-    const float *normals;    /* 3 each; given or generated */
-    const float *colors;     /* 4 each */
-    const float *tex_coords; /* 4 each; NULL: the default mapping by bounding box */
+    bool concave;         /* faces may be concave */
+    const float *points;  /* 3 each */
+    const float *normals; /* 3 each; given or generated */
+    const float *colors;  /* 4 each */
+    /* 4 each; NULL: the default mapping by bounding box. Units beyond have none of their own. */
+    const float *tex_coords[PLR_MESH_TEX_UNITS];
+    unsigned tex_units;
+    bool tex_given; /* there is a texCoord node */
     uint32_t point_count;
     struct {
         plr_corner *items;
@@ -50,8 +53,9 @@ bool plr_polygons_read(plr_polygons *polygons);
  * NULL and count 0 where the node has none. */
 const float *plr_mesh_values(plr_arena *arena, const plr_node *property, const char *field,
                              int components, const float *missing, uint32_t *count);
-const float *plr_mesh_tex_coords(plr_polygons *polygons, const plr_node *tex_coord,
-                                 uint32_t *count);
+/* Units of texture coordinates of a texCoord node; returns how many values every unit has that has
+ * values: as many as the shortest. */
+uint32_t plr_polygons_tex_coords(plr_polygons *polygons, const plr_node *tex_coord);
 void plr_mesh_attributes(plr_polygons *polygons, plr_mesh *mesh, const uint32_t *coords);
 
 /* mesh_normals.c: gives every corner a normal, from the faces alone. Two neighbours are smooth
@@ -79,6 +83,9 @@ void plr_triangulate(plr_clipper *clipper, const plr_polygons *polygons, const p
 bool plr_polygons_emit(plr_polygons *polygons, plr_mesh *mesh);
 /* malloc for the mesh's own arrays; without memory jumps as the arena does. */
 void *plr_mesh_array(plr_arena *arena, size_t count, size_t size);
+
+/* mesh_mapping.c: what both mappings rest upon. */
+void plr_mesh_find_bounds(plr_mesh *mesh);
 
 /* mesh_shapes.c: Box, Sphere, ... False if the node is none of them. */
 bool plr_mesh_shape(plr_arena *arena, const plr_node *node, plr_mesh *mesh);

@@ -255,7 +255,7 @@ static void read_properties(reader *r) {
     p->normals =
         plr_mesh_values(p->arena, b[NORMAL].property, "vector", 3, missing, &b[NORMAL].count);
     p->colors = plr_mesh_values(p->arena, b[COLOR].property, "color", 4, missing, &b[COLOR].count);
-    p->tex_coords = plr_mesh_tex_coords(p, b[TEX].property, &b[TEX].count);
+    b[TEX].count = plr_polygons_tex_coords(p, b[TEX].property);
     b[NORMAL].index = index_field(p->node, "normalIndex");
     b[COLOR].index = index_field(p->node, "colorIndex");
     b[TEX].index = index_field(p->node, "texCoordIndex");
@@ -271,7 +271,7 @@ static void make_grid_points(reader *r, uint32_t columns, uint32_t rows) {
     double spacing_z = plr_node_number(p->node, "zSpacing");
     size_t count = (size_t)columns * rows;
     float *points = plr_arena_array(p->arena, count, 3 * sizeof *points);
-    float *tex = r->bindings[TEX].count ? NULL : plr_arena_array(p->arena, count, 4 * sizeof *tex);
+    float *tex = p->tex_given ? NULL : plr_arena_array(p->arena, count, 4 * sizeof *tex);
     for (size_t i = 0; i < count; i++) {
         size_t x = i % columns, z = i / columns;
         points[3 * i] = (float)((double)x * spacing_x);
@@ -286,7 +286,7 @@ static void make_grid_points(reader *r, uint32_t columns, uint32_t rows) {
     p->points = points;
     p->point_count = (uint32_t)count;
     if (tex) {
-        p->tex_coords = tex;
+        p->tex_coords[0] = tex;
         r->bindings[TEX].count = (uint32_t)count;
     }
 }

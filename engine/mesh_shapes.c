@@ -11,7 +11,7 @@
 static void reserve(plr_arena *arena, plr_mesh *mesh, uint32_t vertices, uint32_t indices) {
     mesh->positions = plr_mesh_array(arena, vertices, 3 * sizeof(float));
     mesh->normals = plr_mesh_array(arena, vertices, 3 * sizeof(float));
-    mesh->tex_coords = plr_mesh_array(arena, vertices, 4 * sizeof(float));
+    mesh->tex_coords[0] = plr_mesh_array(arena, vertices, 4 * sizeof(float));
     mesh->indices = plr_mesh_array(arena, indices, sizeof(uint32_t));
 }
 
@@ -25,9 +25,10 @@ static uint32_t add_vertex(plr_mesh *mesh, const double position[3], const doubl
         mesh->normals[3 * i + (size_t)axis] =
             (float)(length > 0 ? normal[axis] / length : axis == 1);
     }
-    mesh->tex_coords[4 * i] = (float)tex_s;
-    mesh->tex_coords[4 * i + 1] = (float)tex_t;
-    mesh->tex_coords[4 * i + 3] = 1;
+    float *tex = mesh->tex_coords[0] + 4 * i;
+    tex[0] = (float)tex_s;
+    tex[1] = (float)tex_t;
+    tex[3] = 1;
     return mesh->vertex_count++;
 }
 

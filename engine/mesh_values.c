@@ -35,21 +35,29 @@ const float *plr_mesh_values(plr_arena *arena, const plr_node *property, const c
     return values;
 }
 
-const float *plr_mesh_tex_coords(plr_polygons *polygons, const plr_node *tex_coord,
-                                 uint32_t *count) {
+/* Values of one unit; NULL where it has none or they are generated while drawing. */
+static const float *unit_coords(plr_polygons *polygons, const plr_node *node, uint32_t *count) {
     static const float missing[4] = {0, 0, 0, 1};
     *count = 0;
-    if (tex_coord && plr_node_is(tex_coord, "MultiTextureCoordinate"))
-        tex_coord = plr_node_child(tex_coord, "texCoord");
+    return node ? plr_mesh_values(polygons->arena, node, "point", 4, missing, count) : NULL;
+}
+
+uint32_t plr_polygons_tex_coords(plr_polygons *polygons, const plr_node *tex_coord) {
     if (!tex_coord)
-        return NULL;
-    if (!plr_node_field(tex_coord, "point")) {
-        plr_diags_add(polygons->diags, PLR_CODE_NOT_DRAWN, plr_node_place(tex_coord),
-                      "plugray does not make the coordinates of %s yet; the default ones are taken",
-                      plr_node_type(tex_coord));
-        return NULL;
+        return 0;
+    const plr_field *units = plr_node_field(tex_coord, "texCoord");
+    size_t count = units && units->type == PLR_MFNODE ? units->count : 1;
+    polygons->tex_given = true;
+    uint32_t least = 0;
+    for (size_t i = 0; i < count && i < PLR_MESH_TEX_UNITS; i++) {
+        uint32_t values;
+        const plr_node *node = units ? units->value.nodes[i] : tex_coord;
+        polygons->tex_coords[i] = unit_coords(polygons, node, &values);
+        polygons->tex_units = (unsigned)i + 1;
+        if (values && (!least || values < least))
+            least = values;
     }
-    return plr_mesh_values(polygons->arena, tex_coord, "point", 4, missing, count);
+    return least;
 }
 
 /* The numbers that one vertex has of an attribute node; 0 if it is no such node. */

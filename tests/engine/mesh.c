@@ -154,7 +154,7 @@ static const float *tex_at(const plr_mesh *mesh, float x, float y, float z, cons
         float along = n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2];
         if (fabsf(p[0] - x) + fabsf(p[1] - y) + fabsf(p[2] - z) < 1e-5f && along > best + 1e-6f) {
             best = along;
-            found = mesh->tex_coords + 4 * i;
+            found = mesh->tex_coords[0] + 4 * i;
         }
     }
     static const float none[4] = {-9, -9, -9, -9};
@@ -432,8 +432,8 @@ static void test_bindings(void) {
         CHECK(f.mesh.colors[4 * b] == 1 && f.mesh.colors[4 * b + 1] == 0);
         CHECK_NEAR(f.mesh.normals[3 * a + 2], 1, 0); /* brought to length 1 */
         CHECK_NEAR(f.mesh.normals[3 * b + 1], 1, 0);
-        CHECK_NEAR(f.mesh.tex_coords[4 * a], 0.3f, 0);
-        CHECK_NEAR(f.mesh.tex_coords[4 * (size_t)f.mesh.indices[5]], 0, 0);
+        CHECK_NEAR(f.mesh.tex_coords[0][4 * a], 0.3f, 0);
+        CHECK_NEAR(f.mesh.tex_coords[0][4 * (size_t)f.mesh.indices[5]], 0, 0);
     }
     finish(&f);
     f = build(
@@ -443,7 +443,7 @@ static void test_bindings(void) {
         "FloatVertexAttribute { name \"heat\" numComponents 2 value [ 1 2 3 4 5 6 ] } ] }");
     CHECK(f.built && f.mesh.vertex_count == 3);
     CHECK(f.built && f.mesh.colors[3] == 0.5f && f.mesh.colors[11] == 0);
-    CHECK(f.built && f.mesh.tex_coords[3] == 4);
+    CHECK(f.built && f.mesh.tex_coords[0][3] == 4);
     CHECK(f.built && f.mesh.attribute_count == 1 && f.mesh.attributes[0].components == 2);
     CHECK(f.built && strcmp(f.mesh.attributes[0].name, "heat") == 0 &&
           f.mesh.attributes[0].values[5] == 6);
@@ -504,7 +504,7 @@ static void test_lines_and_points(void) {
     CHECK(f.built && f.mesh.kind == PLR_MESH_LINES);
     CHECK_INT(f.mesh.index_count, 6);
     CHECK_INT(f.mesh.vertex_count, 5); /* each line has its own colour */
-    CHECK(!f.mesh.normals && !f.mesh.tex_coords);
+    CHECK(!f.mesh.normals && !f.mesh.tex_coords[0]);
     finish(&f);
     f = build(
         "LineSet { vertexCount [ 2 3 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 0 2 0, 5 5 "
