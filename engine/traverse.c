@@ -48,6 +48,7 @@ static plr_matrix transform_matrix(const plr_node *node) {
 }
 
 static void add_light(walk *w, plr_node *node, const plr_matrix *matrix) {
+    *PLR_PUSH(w->arena, &w->flat->all_lights) = (plr_light){node, *matrix};
     if (!plr_node_bool(node, "on"))
         return;
     bool global = plr_node_bool(node, "global");

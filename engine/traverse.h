@@ -48,6 +48,7 @@ typedef struct plr_viewpoint {
 typedef struct plr_flat {
     plr_leaves volumes, shapes;
     plr_lights global_lights; /* the headlight among them */
+    plr_lights all_lights;    /* that have a place in the scene, those that are off, too */
     struct {
         plr_viewpoint *items;
         size_t count, capacity;
