@@ -121,7 +121,7 @@ static void add_surface(extent *e, const plr_surface *surface,
     for (int corner = 0; corner < 8; corner++) {
         double point[3];
         for (int axis = 0; axis < 3; axis++)
-            point[axis] = (double)surface->mesh.bounds[corner >> axis & 1][axis];
+            point[axis] = (double)surface->model->mesh.bounds[corner >> axis & 1][axis];
         plr_matrix_point(&matrix, point, point);
         point[2] = -point[2];
         for (int axis = 0; axis < 3; axis++) {
@@ -135,7 +135,7 @@ static void add_surface(extent *e, const plr_surface *surface,
 static extent scene_extent(const plr_view *view, const plr_matrix *world_to_projector) {
     extent e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < view->surface_count; i++)
-        if (view->surfaces[i].mesh.vertex_count && casts_shadow(view->flat.shapes.items[i].node))
+        if (view->surfaces[i].model->mesh.vertex_count && casts_shadow(view->flat.shapes.items[i].node))
             add_surface(&e, &view->surfaces[i], world_to_projector);
     for (int axis = 0; axis < 3; axis++) {
         if (!(e.most[axis] >= e.least[axis]) || !isfinite(e.most[axis] - e.least[axis]))

@@ -6,7 +6,7 @@
 
 typedef struct plr_shape {
     plr_view *view;
-    plr_surface *surface; /* its mesh is built */
+    plr_model *model; /* its mesh is built */
     const plr_leaf *leaf;
     plr_node *appearance, *geometry; /* or NULL */
     plr_recipe *recipe;

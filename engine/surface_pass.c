@@ -13,7 +13,7 @@ static void corner_depths(const plr_surface *surface, const plr_matrix *world_to
     for (int corner = 0; corner < 8; corner++) {
         double point[3];
         for (int axis = 0; axis < 3; axis++)
-            point[axis] = (double)surface->mesh.bounds[corner >> axis & 1][axis];
+            point[axis] = (double)surface->model->mesh.bounds[corner >> axis & 1][axis];
         plr_matrix_point(&to_eye, point, point);
         depths[0] = fmin(depths[0], -point[2]);
         depths[1] = fmax(depths[1], -point[2]);
@@ -26,7 +26,7 @@ void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, d
     for (size_t i = 0; i < view->surface_count; i++) {
         plr_surface *surface = &view->surfaces[i];
         double own[2] = {INFINITY, -INFINITY};
-        if (!surface->pass.built)
+        if (!surface->model->pass.built)
             continue;
         corner_depths(surface, world_to_eye, own);
         surface->depth = (own[0] + own[1]) / 2;
@@ -37,10 +37,10 @@ void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, d
 
 /* ---- GL ---- */
 
-static GLuint upload_buffer(plr_view *view, plr_surface *surface, GLenum target, const void *data,
+static GLuint upload_buffer(plr_view *view, plr_model *model, GLenum target, const void *data,
                             size_t size) {
     const plr_gl *gl = &view->engine->gl;
-    GLuint *name = &surface->buffers[surface->buffer_count++];
+    GLuint *name = &model->buffers[model->buffer_count++];
     gl->GenBuffers(1, name);
     gl->BindBuffer(target, *name);
     gl->BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
@@ -85,26 +85,26 @@ static void set_pointer(const plr_gl *gl, GLuint location, int components) {
     }
 }
 
-static void upload_mesh(plr_view *view, plr_surface *surface) {
+static void upload_mesh(plr_view *view, plr_model *model) {
     const plr_gl *gl = &view->engine->gl;
-    const plr_mesh *mesh = &surface->mesh;
-    gl->GenVertexArrays(1, &surface->vertex_array);
-    gl->BindVertexArray(surface->vertex_array);
-    const int most = (int)(sizeof surface->buffers / sizeof *surface->buffers) - 1;
-    for (size_t i = 0; i < plr_program_symbol_count(surface->pass.program); i++) {
-        const plr_symbol *symbol = plr_program_symbol(surface->pass.program, i);
+    const plr_mesh *mesh = &model->mesh;
+    gl->GenVertexArrays(1, &model->vertex_array);
+    gl->BindVertexArray(model->vertex_array);
+    const int most = (int)(sizeof model->buffers / sizeof *model->buffers) - 1;
+    for (size_t i = 0; i < plr_program_symbol_count(model->pass.program); i++) {
+        const plr_symbol *symbol = plr_program_symbol(model->pass.program, i);
         int components;
-        if (symbol->kind != PLR_ATTRIBUTE || surface->buffer_count >= most)
+        if (symbol->kind != PLR_ATTRIBUTE || model->buffer_count >= most)
             continue;
-        GLint location = gl->GetAttribLocation(surface->pass.built->name, symbol->program);
+        GLint location = gl->GetAttribLocation(model->pass.built->name, symbol->program);
         const float *data = attribute_data(mesh, symbol->name, &components);
         if (location < 0 || !data)
             continue;
-        upload_buffer(view, surface, GL_ARRAY_BUFFER, data,
+        upload_buffer(view, model, GL_ARRAY_BUFFER, data,
                       sizeof(float) * (size_t)components * mesh->vertex_count);
         set_pointer(gl, (GLuint)location, components);
     }
-    upload_buffer(view, surface, GL_ELEMENT_ARRAY_BUFFER, mesh->indices,
+    upload_buffer(view, model, GL_ELEMENT_ARRAY_BUFFER, mesh->indices,
                   sizeof(uint32_t) * mesh->index_count);
     gl->BindVertexArray(0);
 }
@@ -112,36 +112,37 @@ static void upload_mesh(plr_view *view, plr_surface *surface) {
 void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame) {
     static const GLenum kinds[] = {GL_TRIANGLES, GL_LINES, GL_POINTS};
     const plr_gl *gl = &view->engine->gl;
-    if (!surface->pass.built || !surface->mesh.index_count)
+    plr_model *model = surface->model;
+    if (!model->pass.built || !model->mesh.index_count)
         return;
-    if (!surface->vertex_array)
-        upload_mesh(view, surface);
+    if (!model->vertex_array)
+        upload_mesh(view, model);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(frame->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
-    gl->DepthMask(!surface->blends);
-    if (surface->blends) {
+    gl->DepthMask(!model->blends);
+    if (model->blends) {
         gl->Enable(GL_BLEND);
         gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     } else {
         gl->Disable(GL_BLEND);
     }
-    bool culls = surface->mesh.kind == PLR_MESH_TRIANGLES && !surface->mesh.two_sided;
+    bool culls = model->mesh.kind == PLR_MESH_TRIANGLES && !model->mesh.two_sided;
     (culls ? gl->Enable : gl->Disable)(GL_CULL_FACE);
     gl->CullFace(GL_BACK);
     bool mirrored = plr_matrix_determinant3(&surface->to_world) < 0;
-    gl->FrontFace(surface->mesh.clockwise != mirrored ? GL_CW : GL_CCW);
-    gl->UseProgram(surface->pass.built->name);
+    gl->FrontFace(model->mesh.clockwise != mirrored ? GL_CW : GL_CCW);
+    gl->UseProgram(model->pass.built->name);
     plr_values values = {.frame = frame, .to_world = surface->to_world};
-    plr_bind_set(gl, &view->textures, &surface->pass.slots, &values);
-    gl->BindVertexArray(surface->vertex_array);
-    gl->DrawElements(kinds[surface->mesh.kind], (GLsizei)surface->mesh.index_count, GL_UNSIGNED_INT,
+    plr_bind_set(gl, &view->textures, &model->pass.slots, &values);
+    gl->BindVertexArray(model->vertex_array);
+    gl->DrawElements(kinds[model->mesh.kind], (GLsizei)model->mesh.index_count, GL_UNSIGNED_INT,
                      NULL);
 }
 
-void plr_surface_finish(plr_view *view, plr_surface *surface) {
-    if (view->engine && surface->vertex_array) {
-        view->engine->gl.DeleteVertexArrays(1, &surface->vertex_array);
-        view->engine->gl.DeleteBuffers(surface->buffer_count, surface->buffers);
+void plr_model_finish(plr_view *view, plr_model *model) {
+    if (view->engine && model->vertex_array) {
+        view->engine->gl.DeleteVertexArrays(1, &model->vertex_array);
+        view->engine->gl.DeleteBuffers(model->buffer_count, model->buffers);
     }
-    plr_mesh_free(&surface->mesh);
+    plr_mesh_free(&model->mesh);
 }

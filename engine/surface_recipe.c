@@ -19,15 +19,15 @@ void plr_shape_lights(plr_shape *shape) {
 }
 
 static void define_surface(plr_shape *shape) {
-    const plr_surface *surface = shape->surface;
+    const plr_model *model = shape->model;
     const struct {
         const char *name;
         int value;
     } defines[] = {{"CASTLE_GLSL_VERSION_UPGRADE", 1},
-                   {"HAS_COLORS", surface->mesh.colors != NULL},
-                   {"HAS_NORMALS", surface->mesh.normals != NULL},
-                   {"TWO_SIDED", surface->mesh.two_sided},
-                   {"OPAQUE", !surface->blends}};
+                   {"HAS_COLORS", model->mesh.colors != NULL},
+                   {"HAS_NORMALS", model->mesh.normals != NULL},
+                   {"TWO_SIDED", model->mesh.two_sided},
+                   {"OPAQUE", !model->blends}};
     for (size_t i = 0; i < sizeof defines / sizeof *defines; i++)
         plr_recipe_define(&shape->view->kitchen, shape->recipe, defines[i].name, defines[i].value);
 }
@@ -43,7 +43,7 @@ static void add_authors(plr_shape *shape) {
 }
 
 static void compose(plr_shape *shape) {
-    plr_pass *pass = &shape->surface->pass;
+    plr_pass *pass = &shape->model->pass;
     add_authors(shape);
     pass->built =
         plr_compose_program(&shape->view->composer, &pass->recipe, "surface", &pass->program);
@@ -67,45 +67,90 @@ static bool compose_shader(plr_shape *shape) {
         shape->appearance ? plr_node_field(shape->appearance, "shaders") : NULL;
     for (size_t i = 0; shaders && i < shaders->count; i++) {
         plr_node *shader = shaders->value.nodes[i];
-        shape->surface->pass = (plr_pass){0};
+        shape->model->pass = (plr_pass){0};
         if (!shader || !plr_node_is(shader, "ComposedShader") ||
             !plr_recipe_shader_base(&shape->view->kitchen, shape->recipe, shader))
             continue;
         shape->recipe->base_node = shader;
         define_surface(shape);
         compose(shape);
-        if (shape->surface->pass.built)
+        if (shape->model->pass.built)
             return true;
     }
     return false;
 }
 
-static void prepare_surface(plr_view *view, plr_surface *surface, const plr_leaf *leaf,
-                            plr_diags *diags) {
+static void prepare_model(plr_view *view, plr_model *model, const plr_leaf *leaf,
+                          plr_diags *diags) {
     plr_shape shape = {.view = view,
-                       .surface = surface,
+                       .model = model,
                        .leaf = leaf,
                        .appearance = plr_node_child(leaf->node, "appearance"),
                        .geometry = plr_node_child(leaf->node, "geometry"),
-                       .recipe = &surface->pass.recipe,
+                       .recipe = &model->pass.recipe,
                        .diags = diags};
-    surface->to_world = leaf->to_world;
-    bool built = plr_mesh_build(shape.geometry, &surface->mesh, diags);
+    bool built = plr_mesh_build(shape.geometry, &model->mesh, diags);
     if (!built && view->engine)
         return; /* else the effects on it are checked all the same */
-    shape.lit = surface->mesh.normals != NULL;
-    surface->blends = plr_shape_blends(&shape);
+    shape.lit = model->mesh.normals != NULL;
+    model->blends = plr_shape_blends(&shape);
     if (!compose_shader(&shape))
         compose_standard(&shape);
 }
 
+/* ---- Models and the places where they stand ---- */
+
+static bool is_empty(const plr_scope *scope) {
+    return !scope->lights.count && !scope->effects.count;
+}
+
+/* Models by shape and scope: open addressing, at most half full. */
+typedef struct model_table {
+    plr_model **slots;
+    size_t mask;
+} model_table;
+
+static plr_model **find_slot(const model_table *table, const plr_node *node,
+                             const plr_scope *scope) {
+    uint64_t hash = (uint64_t)(uintptr_t)node * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (uint64_t)(uintptr_t)scope) * 0x9e3779b97f4a7c15u;
+    size_t at = (size_t)(hash >> 32) & table->mask;
+    while (table->slots[at] && (table->slots[at]->node != node || table->slots[at]->scope != scope))
+        at = (at + 1) & table->mask;
+    return &table->slots[at];
+}
+
+static plr_model *model_of(plr_view *view, model_table *table, const plr_leaf *leaf,
+                           plr_diags *diags) {
+    const plr_scope *scope = leaf->scope;
+    while (scope->outer && is_empty(scope))
+        scope = scope->outer;
+    plr_model **slot = find_slot(table, leaf->node, scope);
+    if (!*slot) {
+        *slot = PLR_NEW(&view->arena, plr_model);
+        (*slot)->node = leaf->node;
+        (*slot)->scope = scope;
+        view->models[view->model_count++] = *slot; /* before: its mesh is freed whatever happens */
+        prepare_model(view, *slot, leaf, diags);
+    }
+    return *slot;
+}
+
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags) {
-    view->surfaces = PLR_NEW_ARRAY(&view->arena, view->flat.shapes.count + 1, plr_surface);
-    view->blending = PLR_NEW_ARRAY(&view->arena, view->flat.shapes.count + 1, plr_surface *);
-    for (size_t i = 0; i < view->flat.shapes.count; i++) {
-        view->surface_count = i + 1; /* before: so that its mesh is freed whatever happens */
-        prepare_surface(view, &view->surfaces[i], &view->flat.shapes.items[i], diags);
-        if (view->surfaces[i].blends)
-            view->blending[view->blending_count++] = &view->surfaces[i];
+    size_t count = view->flat.shapes.count, size = 16;
+    while (size < 2 * count)
+        size *= 2;
+    model_table table = {PLR_NEW_ARRAY(&view->arena, size, plr_model *), size - 1};
+    view->models = PLR_NEW_ARRAY(&view->arena, count + 1, plr_model *);
+    view->surfaces = PLR_NEW_ARRAY(&view->arena, count + 1, plr_surface);
+    view->blending = PLR_NEW_ARRAY(&view->arena, count + 1, plr_surface *);
+    for (size_t i = 0; i < count; i++) {
+        const plr_leaf *leaf = &view->flat.shapes.items[i];
+        plr_surface *surface = &view->surfaces[i];
+        surface->model = model_of(view, &table, leaf, diags);
+        surface->to_world = leaf->to_world;
+        view->surface_count = i + 1;
+        if (surface->model->blends)
+            view->blending[view->blending_count++] = surface;
     }
 }

@@ -51,8 +51,8 @@ static void upload(plr_view *view) {
     plr_pass_find(view, &view->background);
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         plr_pass_find(view, &view->volumes.casts[i].pass);
-    for (size_t i = 0; i < view->surface_count; i++)
-        plr_pass_find(view, &view->surfaces[i].pass);
+    for (size_t i = 0; i < view->model_count; i++)
+        plr_pass_find(view, &view->models[i]->pass);
     find_gradient_units(view);
     plr_textures_upload(&view->textures);
     gl->GenVertexArrays(1, &view->empty_vertex_array);
@@ -123,8 +123,8 @@ void plr_view_destroy(plr_view **view) {
     plr_view *v = *view;
     if (!v)
         return;
-    for (size_t i = 0; i < v->surface_count; i++)
-        plr_surface_finish(v, &v->surfaces[i]);
+    for (size_t i = 0; i < v->model_count; i++)
+        plr_model_finish(v, v->models[i]);
     if (v->engine && v->color_only) {
         plr_framebuffer_destroy(&v->framebuffer);
         v->engine->gl.DeleteFramebuffers(1, &v->color_only);
@@ -171,7 +171,7 @@ static int farther_first(const void *a, const void *b) {
 
 static void draw_opaque(plr_view *view, const plr_frame *frame) {
     for (size_t i = 0; i < view->surface_count; i++)
-        if (!view->surfaces[i].blends)
+        if (!view->surfaces[i].model->blends)
             plr_surface_draw(view, &view->surfaces[i], frame);
 }
 

@@ -40,14 +40,22 @@ typedef struct plr_volume_pass {
     plr_texture *default_ramp;
 } plr_volume_pass;
 
-typedef struct plr_surface {
+/* A shape with its program: shared by all places where it stands under the same lights and
+ * effects. */
+typedef struct plr_model {
+    const plr_node *node;   /* Shape */
+    const plr_scope *scope; /* the nearest one around it that brings anything */
     plr_pass pass;
-    plr_matrix to_world;
     plr_mesh mesh;
     bool blends;
-    double depth; /* of the centre, in this frame */
     GLuint vertex_array, buffers[40];
     int buffer_count;
+} plr_model;
+
+typedef struct plr_surface {
+    plr_model *model;
+    plr_matrix to_world;
+    double depth; /* of the centre, in this frame */
 } plr_surface;
 
 struct plr_view {
@@ -63,6 +71,8 @@ struct plr_view {
     plr_composer composer;
     plr_pass background; /* of more than one colour */
     plr_volume_pass volumes;
+    plr_model **models;
+    size_t model_count;
     plr_surface *surfaces;
     size_t surface_count;
     plr_surface **blending; /* the translucent ones */
@@ -97,6 +107,6 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
 /* Bounds of the surfaces along the view direction: least and greatest distance from the eye's
  * plane. */
 void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, double depths[2]);
-void plr_surface_finish(plr_view *view, plr_surface *surface);
+void plr_model_finish(plr_view *view, plr_model *model);
 
 #endif
