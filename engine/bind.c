@@ -27,9 +27,12 @@ static const struct glsl_type {
     {"int", SHAPE_INT, 1, " Int32 "},
     {"mat3", SHAPE_MATRIX, 9, " Matrix3f Matrix3d "},
     {"mat4", SHAPE_MATRIX, 16, " Matrix4f Matrix4d "},
-    {"sampler2D", SHAPE_SAMPLER, 2, " Node "},
-    {"sampler3D", SHAPE_SAMPLER, 3, " Node "},
-    {"samplerCube", SHAPE_SAMPLER, 6, " Node "},
+    /* of samplers: the kind of texture that they read */
+    {"sampler2D", SHAPE_SAMPLER, PLR_TEXTURE_2D, " Node "},
+    {"sampler3D", SHAPE_SAMPLER, PLR_TEXTURE_3D, " Node "},
+    {"samplerCube", SHAPE_SAMPLER, PLR_TEXTURE_CUBE, " Node "},
+    {"sampler2DShadow", SHAPE_SAMPLER, PLR_TEXTURE_2D_SHADOW, " Node "},
+    {"samplerCubeShadow", SHAPE_SAMPLER, PLR_TEXTURE_CUBE_SHADOW, " Node "},
 };
 
 static const struct glsl_type *find_glsl_type(const char *name) {
@@ -142,6 +145,12 @@ static void v_node_to_eye(const context *c, float *out) {
         m = plr_matrix_multiply(&c->values->frame->view, &m);
     put(&m, out);
 }
+static void v_eye_to_node(const context *c, float *out) {
+    plr_matrix m = c->binding->to_world;
+    if (!c->binding->in_eye_space)
+        m = plr_matrix_multiply(&c->values->frame->view, &m);
+    put_inverse(&m, out);
+}
 static void v_eye_to_local(const context *c, float *out) {
     plr_matrix m = plr_matrix_multiply(&c->values->frame->view, &c->volume->to_world);
     put_inverse(&m, out);
@@ -195,6 +204,7 @@ static const struct known {
     {"emptyDepth", OWNER_HOST, v_empty_depth},
     {"transparencyLeft", OWNER_HOST, v_transparency_left},
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
+    {"eyeToNode", OWNER_NODE, v_eye_to_node},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
     {"dimensions", OWNER_VOLUME, v_dimensions},
     {"sampleDistance", OWNER_VOLUME, v_step},
@@ -242,8 +252,39 @@ static void warn_unused_fields(const plr_effect *effect, const plr_node *node, p
     }
 }
 
+static const char *sampler_name(plr_texture_kind kind) {
+    for (size_t i = 0; i < sizeof glsl_types / sizeof *glsl_types; i++)
+        if (glsl_types[i].shape == SHAPE_SAMPLER && glsl_types[i].components == (int)kind)
+            return glsl_types[i].name;
+    return "";
+}
+
+/* Whether the textures in the field are of the kind that the sampler reads; reports the first that
+ * is not. */
+static bool check_textures(plr_kitchen *k, const plr_symbol *symbol, const plr_field *field,
+                           const struct glsl_type *type) {
+    for (size_t i = 0; i < field->count && i < (symbol->array ? symbol->array : 1); i++) {
+        const plr_node *node = field->value.nodes[i];
+        const plr_texture *texture = node ? plr_textures_get(k->textures, node) : NULL;
+        if (!node || (texture && (int)texture->kind == type->components))
+            continue;
+        if (texture)
+            plr_diags_add(k->diags, PLR_CODE_UNIFORM_TYPE, field->place,
+                          "the field '%s' holds a texture for %s, its uniform is %s", field->name,
+                          sampler_name(texture->kind), symbol->type);
+        else
+            plr_diags_add(k->diags, PLR_CODE_UNIFORM_TYPE, field->place,
+                          "the field '%s' holds %s, which no sampler can read", field->name,
+                          plr_node_type(node));
+        plr_diags_note(k->diags, symbol->place, "the uniform is declared here");
+        return false;
+    }
+    return true;
+}
+
 /* Whether the uniform fits; reports if not. */
-static bool check_symbol(const plr_symbol *symbol, const plr_node *node, plr_diags *diags) {
+static bool check_symbol(plr_kitchen *k, const plr_symbol *symbol, const plr_node *node) {
+    plr_diags *diags = k->diags;
     const plr_field *field = plr_node_field(node, symbol->name);
     if (!field || !field->declared) {
         if (!symbol->initialized)
@@ -251,8 +292,9 @@ static bool check_symbol(const plr_symbol *symbol, const plr_node *node, plr_dia
                           "the effect has no field '%s' to set this uniform", symbol->name);
         return true;
     }
-    if (field_fits(field, find_glsl_type(symbol->type), symbol->array != 0))
-        return true;
+    const struct glsl_type *type = find_glsl_type(symbol->type);
+    if (field_fits(field, type, symbol->array != 0))
+        return type->shape != SHAPE_SAMPLER || check_textures(k, symbol, field, type);
     plr_diags_add(diags, PLR_CODE_UNIFORM_TYPE, field->place,
                   "the field '%s' is %s, its uniform is %s%s", field->name,
                   plr_type_name(field->type), symbol->type, symbol->array ? "[]" : "");
@@ -260,7 +302,7 @@ static bool check_symbol(const plr_symbol *symbol, const plr_node *node, plr_dia
     return false;
 }
 
-bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *diags) {
+bool plr_bind_check(plr_kitchen *k, plr_recipe *recipe, const plr_program *program) {
     bool again = false;
     for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
@@ -268,12 +310,12 @@ bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *d
             continue;
         if (symbol->effect == PLR_NO_EFFECT) {
             if (recipe->base_node && !find_known(symbol->name, NULL))
-                check_symbol(symbol, recipe->base_node, diags);
+                check_symbol(k, symbol, recipe->base_node);
             continue;
         }
         if (recipe->effects.items[symbol->effect].builtin)
             continue;
-        if (!check_symbol(symbol, recipe->bindings.items[symbol->effect].node, diags)) {
+        if (!check_symbol(k, symbol, recipe->bindings.items[symbol->effect].node)) {
             recipe->effects.items[symbol->effect].disabled = true;
             again = true;
         }
@@ -281,7 +323,7 @@ bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *d
     for (size_t i = 0; !again && i < recipe->effects.count; i++) {
         const plr_effect *effect = &recipe->effects.items[i];
         if (!effect->builtin && !effect->disabled)
-            warn_unused_fields(effect, recipe->bindings.items[i].node, diags);
+            warn_unused_fields(effect, recipe->bindings.items[i].node, k->diags);
     }
     return again;
 }
@@ -306,9 +348,9 @@ struct plr_slot {
         SLOT_DEFAULT_RAMP,
         SLOT_OPAQUE_DEPTH
     } source;
-    plr_texture *texture;
+    plr_texture *texture; /* NULL: none; the sampler reads black */
     unsigned unit;
-    bool clamp;
+    plr_texture_use use;
 };
 
 /* "skyColor_count" is the number of elements of the field skyColor. */
@@ -363,16 +405,26 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     if (slot->type->shape != SHAPE_SAMPLER)
         return true;
     slot->source = SLOT_TEXTURE;
-    slot->clamp = builtin;
+    if (builtin && slot->volume != PLR_NO_EFFECT)
+        slot->use = PLR_USE_CLAMPED;
     if (element < slot->field->count && slot->field->value.nodes[element])
         slot->texture = plr_textures_get(k->textures, slot->field->value.nodes[element]);
-    return slot->texture != NULL;
+    return slot->texture && (int)slot->texture->kind == slot->type->components;
+}
+
+/* A program of volumes reads textures in a loop along a ray. */
+static bool is_of_volumes(const plr_recipe *recipe) {
+    for (size_t i = 0; i < recipe->bindings.count; i++)
+        if (recipe->bindings.items[i].volume != PLR_NO_EFFECT)
+            return true;
+    return false;
 }
 
 void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
                    const plr_program *program, const plr_built *built, plr_slots *slots) {
     slots->defaults = NULL;
     unsigned units = 0;
+    plr_texture_use use = is_of_volumes(recipe) ? PLR_USE_VOLUME : PLR_USE_SURFACE;
     for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
         bool own = symbol->effect == PLR_NO_EFFECT;
@@ -385,6 +437,7 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
         plr_slot slot = {.binding = binding,
                          .array = symbol->array,
                          .type = find_glsl_type(symbol->type),
+                         .use = use,
                          .volume = binding ? binding->volume : PLR_NO_EFFECT};
         if (symbol->kind == PLR_UNIFORM && !slot.type)
             slots->defaults = built->defaults;
@@ -399,9 +452,14 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
         for (uint32_t element = 0; element < (many ? symbol->array : 1); element++) {
             plr_slot one = slot;
             one.location += (GLint)element;
-            if (!find_source(k, symbol, binding, builtin, element, &one)) {
+            bool found = find_source(k, symbol, binding, builtin, element, &one);
+            if (!found && one.type->shape != SHAPE_SAMPLER) {
                 slots->defaults = built->defaults;
                 break;
+            }
+            if (!found) { /* samplers of two kinds must not stay at one unit */
+                one.source = SLOT_TEXTURE;
+                one.texture = NULL;
             }
             if (one.type->shape == SHAPE_SAMPLER)
                 one.unit = units++;
@@ -479,7 +537,13 @@ static void set_field(const plr_gl *gl, const plr_slot *slot) {
     }
 }
 
-static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_slot *slot,
+static void unbind_texture(const plr_gl *gl, const plr_slot *slot) {
+    gl->ActiveTexture(GL_TEXTURE0 + slot->unit);
+    gl->BindTexture(plr_texture_target((plr_texture_kind)slot->type->components), 0);
+    gl->BindSampler(slot->unit, 0);
+}
+
+static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *slot,
                      const plr_values *values) {
     const plr_volume_state *volume =
         slot->volume < values->volume_count ? &values->volumes[slot->volume] : NULL;
@@ -500,13 +564,16 @@ static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_s
         return;
     case SLOT_VOXELS:
         if (volume)
-            plr_texture_bind(textures, volume->voxels, slot->unit, true);
+            plr_texture_bind(textures, volume->voxels, slot->unit, PLR_USE_CLAMPED);
         break;
     case SLOT_TEXTURE:
-        plr_texture_bind(textures, slot->texture, slot->unit, slot->clamp);
+        if (slot->texture)
+            plr_texture_bind(textures, slot->texture, slot->unit, slot->use);
+        else
+            unbind_texture(gl, slot);
         break;
     case SLOT_DEFAULT_RAMP:
-        plr_texture_bind(textures, values->default_ramp, slot->unit, true);
+        plr_texture_bind(textures, values->default_ramp, slot->unit, PLR_USE_CLAMPED);
         break;
     case SLOT_OPAQUE_DEPTH:
         gl->ActiveTexture(GL_TEXTURE0 + slot->unit);
@@ -517,7 +584,7 @@ static void set_slot(const plr_gl *gl, const plr_textures *textures, const plr_s
     gl->Uniform1i(slot->location, (GLint)slot->unit);
 }
 
-void plr_bind_set(const plr_gl *gl, const plr_textures *textures, const plr_slots *slots,
+void plr_bind_set(const plr_gl *gl, plr_textures *textures, const plr_slots *slots,
                   const plr_values *values) {
     plr_defaults_apply(gl, slots->defaults);
     for (size_t i = 0; i < slots->count; i++)

@@ -35,7 +35,7 @@ typedef struct plr_values {
     plr_matrix to_world; /* of what is drawn */
     const plr_volume_state *volumes;
     size_t volume_count;
-    const plr_texture *default_ramp; /* what a transfer function of NULL stands for */
+    plr_texture *default_ramp; /* what a transfer function of NULL stands for */
 } plr_values;
 
 /* One uniform of a GL program and where its value comes from. */
@@ -50,9 +50,9 @@ typedef struct plr_slots {
 } plr_slots;
 
 /* Compares the fields of authors' effects with the uniforms of the program: an effect whose types
- * differ is reported and disabled (then true is returned: link again); partners that lack are
- * warned of. No GL. */
-bool plr_bind_check(plr_recipe *recipe, const plr_program *program, plr_diags *diags);
+ * (or kinds of textures) differ is reported and disabled (then true is returned: link again);
+ * partners that lack are warned of. No GL. */
+bool plr_bind_check(plr_kitchen *kitchen, plr_recipe *recipe, const plr_program *program);
 
 /* Finds the locations. Needs GL. */
 void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *recipe,
@@ -60,7 +60,7 @@ void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *rec
 /* Whether any slot takes a value that the engine knows by this name ("gradientUnit"). */
 bool plr_bind_needs(const plr_slots *slots, const char *name);
 /* Sets all uniforms of the program in use and binds its textures. Needs GL. */
-void plr_bind_set(const plr_gl *gl, const plr_textures *textures, const plr_slots *slots,
+void plr_bind_set(const plr_gl *gl, plr_textures *textures, const plr_slots *slots,
                   const plr_values *values);
 
 #endif

@@ -6,8 +6,18 @@
 
 #include "engine/volume_internal.h"
 
-static size_t sample_size(plr_sample_type type) {
+size_t plr_image_sample_size(plr_sample_type type) {
     return type == PLR_FLOAT32 ? 4 : type == PLR_UNORM16 ? 2 : 1;
+}
+
+static size_t halved(uint32_t side, uint32_t level) {
+    uint32_t half = level < 32 ? side >> level : 0;
+    return half ? half : 1;
+}
+
+size_t plr_image_level_samples(const plr_image *image, uint32_t level) {
+    size_t depth = image->cube ? image->depth : halved(image->depth, level);
+    return halved(image->width, level) * halved(image->height, level) * depth * image->components;
 }
 
 void plr_image_free(plr_image *image) {
@@ -67,8 +77,12 @@ static bool from_integers(const plr_field *field, size_t header, const uint64_t 
         plr_diags_add(diags, PLR_CODE_NO_MEMORY, field->place, "there is not enough memory");
         return false;
     }
-    *image = (plr_image){(uint32_t)size[0],    (uint32_t)size[1], (uint32_t)size[2],
-                         (uint32_t)components, PLR_UNORM8,        out};
+    *image = (plr_image){.width = (uint32_t)size[0],
+                         .height = (uint32_t)size[1],
+                         .depth = (uint32_t)size[2],
+                         .components = (uint32_t)components,
+                         .type = PLR_UNORM8,
+                         .samples = out};
     for (const int32_t *pixel = field->value.ints + header, *end = pixel + pixels; pixel < end;
          pixel++)
         for (int64_t c = components - 1; c >= 0; c--)
@@ -108,7 +122,7 @@ bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags 
 /* ---- files ---- */
 
 static void flip_rows(plr_image *image) {
-    size_t row = (size_t)image->width * image->components * sample_size(image->type);
+    size_t row = (size_t)image->width * image->components * plr_image_sample_size(image->type);
     char *low = image->samples, *high = low + row * (image->height - 1), piece[4096];
     for (; low < high; low += row, high -= row)
         for (size_t done = 0; done < row;) {
@@ -136,8 +150,12 @@ static bool image_from_volume(const plr_volume *volume, plr_image *image) {
     float *out = malloc(count * sizeof *out);
     if (!out)
         return false;
-    *image = (plr_image){volume->size[0],    volume->size[1], volume->size[2],
-                         volume->components, PLR_FLOAT32,     out};
+    *image = (plr_image){.width = volume->size[0],
+                         .height = volume->size[1],
+                         .depth = volume->size[2],
+                         .components = volume->components,
+                         .type = PLR_FLOAT32,
+                         .samples = out};
     for (size_t i = 0; i < count; i++)
         out[i] = volume->type == PLR_VOXEL_F32 ? ((const float *)volume->voxels)[i]
                                                : (float)((const double *)volume->voxels)[i];

@@ -17,7 +17,13 @@ typedef struct plr_image {
     uint32_t components; /* 1 L, 2 LA, 3 RGB, 4 RGBA */
     plr_sample_type type;
     void *samples;
+    uint32_t mipmaps; /* levels that follow, each half as large (rounded down) as the one before */
+    bool cube;        /* depth is 6: the faces +X -X +Y -Y +Z -Z of GL, rows from t = 0 */
 } plr_image;
+
+/* Samples of one level, all slices or faces; the size of one sample in bytes. */
+size_t plr_image_level_samples(const plr_image *image, uint32_t level);
+size_t plr_image_sample_size(plr_sample_type type);
 
 /* Decodes a file in memory. Limits: 32768 a side, 1 GiB. Faults: bad-image at `place`. */
 bool plr_image_decode(const char *data, size_t length, plr_place place, plr_image *image,

@@ -145,6 +145,11 @@ const char *plr_image_decode_hdr(const char *data, size_t length, plr_image *ima
         free(samples);
         return fault;
     }
-    *image = (plr_image){width, height, 1, 3, PLR_FLOAT32, samples};
+    *image = (plr_image){.width = width,
+                         .height = height,
+                         .depth = 1,
+                         .components = 3,
+                         .type = PLR_FLOAT32,
+                         .samples = samples};
     return NULL;
 }

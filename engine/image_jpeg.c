@@ -92,12 +92,12 @@ const char *plr_image_decode_jpeg(const char *data, size_t length, plr_image *im
     if (fault)
         free(d->samples);
     else
-        *image = (plr_image){d->jpeg.output_width,
-                             d->jpeg.output_height,
-                             1,
-                             (uint32_t)d->jpeg.output_components,
-                             PLR_UNORM8,
-                             d->samples};
+        *image = (plr_image){.width = d->jpeg.output_width,
+                             .height = d->jpeg.output_height,
+                             .depth = 1,
+                             .components = (uint32_t)d->jpeg.output_components,
+                             .type = PLR_UNORM8,
+                             .samples = d->samples};
     jpeg_destroy_decompress(&d->jpeg);
     free(d);
     return fault;

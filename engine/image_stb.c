@@ -56,8 +56,11 @@ const char *plr_image_decode_stb(const char *data, size_t length, plr_image *ima
              : (void *)stbi_load_from_memory(bytes, size, &width, &height, &components, 0);
     if (!samples)
         return stbi_failure_reason();
-    *image = (plr_image){
-        (uint32_t)width, (uint32_t)height, 1, (uint32_t)components, deep ? PLR_UNORM16 : PLR_UNORM8,
-        samples};
+    *image = (plr_image){.width = (uint32_t)width,
+                         .height = (uint32_t)height,
+                         .depth = 1,
+                         .components = (uint32_t)components,
+                         .type = deep ? PLR_UNORM16 : PLR_UNORM8,
+                         .samples = samples};
     return NULL;
 }

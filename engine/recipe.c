@@ -62,7 +62,7 @@ static void field_defines(plr_kitchen *k, define_list *list, const plr_node *nod
             texture = plr_textures_get(k->textures, child);
             if (texture) {
                 push_define(arena, list, plr_arena_format(arena, "%s_DIMENSIONS", path),
-                            plr_arena_format(arena, "%d", texture->dimensions));
+                            plr_arena_format(arena, "%d", plr_texture_dimensions(texture)));
                 push_define(arena, list, plr_arena_format(arena, "%s_COMPONENTS", path),
                             plr_arena_format(arena, "%u", texture->components));
             } else if (depth > 0) {

@@ -1,6 +1,7 @@
 #include "engine/state.h"
 
-static const GLenum switches[] = {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST};
+static const GLenum switches[] = {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST,
+                                  GL_TEXTURE_CUBE_MAP_SEAMLESS};
 static const GLenum blend_names[] = {GL_BLEND_SRC_RGB,      GL_BLEND_DST_RGB,
                                      GL_BLEND_SRC_ALPHA,    GL_BLEND_DST_ALPHA,
                                      GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
@@ -14,6 +15,7 @@ static void save_units(const plr_gl *gl, plr_gl_state *state) {
         gl->ActiveTexture(GL_TEXTURE0 + (GLenum)i);
         gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &state->units[i].texture_2d);
         gl->GetIntegerv(GL_TEXTURE_BINDING_3D, &state->units[i].texture_3d);
+        gl->GetIntegerv(GL_TEXTURE_BINDING_CUBE_MAP, &state->units[i].texture_cube);
         gl->GetIntegerv(GL_SAMPLER_BINDING, &state->units[i].sampler);
     }
     gl->ActiveTexture((GLenum)state->active_texture);
@@ -24,6 +26,7 @@ static void restore_units(const plr_gl *gl, const plr_gl_state *state) {
         gl->ActiveTexture(GL_TEXTURE0 + (GLenum)i);
         gl->BindTexture(GL_TEXTURE_2D, (GLuint)state->units[i].texture_2d);
         gl->BindTexture(GL_TEXTURE_3D, (GLuint)state->units[i].texture_3d);
+        gl->BindTexture(GL_TEXTURE_CUBE_MAP, (GLuint)state->units[i].texture_cube);
         gl->BindSampler((GLuint)i, (GLuint)state->units[i].sampler);
     }
     gl->ActiveTexture((GLenum)state->active_texture);
@@ -38,7 +41,7 @@ void plr_gl_state_save(const plr_gl *gl, plr_gl_state *state) {
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &state->vertex_array);
     gl->GetIntegerv(GL_ARRAY_BUFFER_BINDING, &state->array_buffer);
     save_units(gl, state);
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < PLR_SAVED_SWITCHES; i++)
         state->enabled[i] = gl->IsEnabled(switches[i]);
     for (int i = 0; i < 6; i++)
         gl->GetIntegerv(blend_names[i], &state->blend[i]);
@@ -60,7 +63,7 @@ void plr_gl_state_restore(const plr_gl *gl, const plr_gl_state *state) {
     gl->BindVertexArray((GLuint)state->vertex_array);
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)state->array_buffer);
     restore_units(gl, state);
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < PLR_SAVED_SWITCHES; i++)
         (state->enabled[i] ? gl->Enable : gl->Disable)(switches[i]);
     gl->BlendFuncSeparate((GLenum)state->blend[0], (GLenum)state->blend[1], (GLenum)state->blend[2],
                           (GLenum)state->blend[3]);

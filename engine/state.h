@@ -5,7 +5,8 @@
 #include "engine/gl.h"
 
 enum {
-    PLR_SAVED_UNITS = 32 /* texture units of one program at most */
+    PLR_SAVED_UNITS = 32, /* texture units of one program at most */
+    PLR_SAVED_SWITCHES = 5
 };
 
 typedef struct plr_gl_state {
@@ -13,9 +14,9 @@ typedef struct plr_gl_state {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, array_buffer, active_texture;
     GLint unit_count;
     struct {
-        GLint texture_2d, texture_3d, sampler;
+        GLint texture_2d, texture_3d, texture_cube, sampler;
     } units[PLR_SAVED_UNITS];
-    GLboolean enabled[4];
+    GLboolean enabled[PLR_SAVED_SWITCHES];
     GLint blend[6];
     GLint depth_function, cull_face, front_face, unpack_alignment;
     GLboolean depth_mask, color_mask[4];

@@ -6,7 +6,7 @@ void plr_shape_textures(plr_shape *shape) {
     if (!texture)
         return;
     plr_texture *image = plr_textures_get(&shape->view->textures, texture);
-    if (!image || image->dimensions != 2) {
+    if (!image || image->kind != PLR_TEXTURE_2D) {
         plr_diags_add(shape->diags, PLR_CODE_NOT_DRAWN, plr_node_place(texture),
                       "%s is not drawn on surfaces yet", plr_node_type(texture));
         return;

@@ -32,7 +32,8 @@ static void measure(plr_view *view, plr_volume_state *state, const plr_image *im
 
 /* One voxel in place of data that cannot be had. */
 static plr_image placeholder(const plr_view *view) {
-    plr_image image = {1, 1, 1, 1, PLR_UNORM8, calloc(1, 1)};
+    plr_image image = {.width = 1, .height = 1, .depth = 1, .components = 1};
+    image.samples = calloc(1, 1);
     if (!image.samples)
         longjmp(*view->arena.out_of_memory, 1);
     return image;
@@ -67,7 +68,7 @@ static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *
         image = placeholder(view); /* the effects on it are checked all the same */
     }
     measure(view, state, &image);
-    state->voxels = plr_textures_make(&view->textures, &image, 3, true);
+    state->voxels = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
     return state->voxel > 0;
 }
 
@@ -359,13 +360,18 @@ static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) 
 }
 
 static void make_default_ramp(plr_view *view) {
-    plr_image ramp = {2, 1, 1, 4, PLR_FLOAT32, calloc(8, sizeof(float))};
+    plr_image ramp = {.width = 2,
+                      .height = 1,
+                      .depth = 1,
+                      .components = 4,
+                      .type = PLR_FLOAT32,
+                      .samples = calloc(8, sizeof(float))};
     if (!ramp.samples)
         longjmp(*view->arena.out_of_memory, 1);
     bool reversed = view->desc.dialect == PLR_DIALECT_2005;
     for (int i = 0; i < 8; i++) /* 0 is black and transparent, 1 white and opaque */
         ((float *)ramp.samples)[i] = (i % 4 == 3 && reversed) ? (float)(i < 4) : (float)(i >= 4);
-    view->volumes.default_ramp = plr_textures_make(&view->textures, &ramp, 2, false);
+    view->volumes.default_ramp = plr_textures_make(&view->textures, &ramp, PLR_TEXTURE_2D, false);
 }
 
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {

@@ -108,7 +108,8 @@ static void test_not_finite(void) {
  * ------------------------------------------------------------------------------------ */
 
 static plr_image make_image(uint32_t w, uint32_t h, uint32_t d, uint32_t components) {
-    plr_image image = {w, h, d, components, PLR_FLOAT32, NULL};
+    plr_image image = {.width = w, .height = h, .depth = d, .components = components};
+    image.type = PLR_FLOAT32;
     image.samples = calloc((size_t)w * h * d * components, sizeof(float));
     return image;
 }
@@ -178,7 +179,11 @@ static void test_components(void) {
 static void test_integer_samples(void) {
     uint16_t words[] = {0, 65535};
     uint8_t bytes[] = {0, 255};
-    plr_image deep = {2, 1, 1, 1, PLR_UNORM16, words}, flat = {2, 1, 1, 1, PLR_UNORM8, bytes};
+    plr_image deep = {.width = 2, .height = 1, .depth = 1, .components = 1}, flat = deep;
+    deep.type = PLR_UNORM16;
+    deep.samples = words;
+    flat.type = PLR_UNORM8;
+    flat.samples = bytes;
     const double dimensions[3] = {2, 1, 1};
     CHECK_NEAR(plr_image_gradient_percentile(&deep, dimensions), 0.5, 1e-6);
     CHECK_NEAR(plr_image_gradient_percentile(&flat, dimensions), 0.5, 1e-6);

@@ -1,0 +1,117 @@
+/* Textures as GL objects. Needs GL. */
+#include "engine/texture_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* 8-bit samples go up as 16-bit ones (v * 257, the same value): some drivers filter 8-bit textures
+ * in 8-bit arithmetic, which is seen in volumes and transfer functions. */
+static uint16_t *widen(const uint8_t *samples, size_t count) {
+    uint16_t *wide = malloc(count * sizeof *wide);
+    for (size_t i = 0; wide && i < count; i++)
+        wide[i] = (uint16_t)(samples[i] * 257u);
+    return wide;
+}
+
+static const GLenum formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+static const GLenum unorm16_formats[] = {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16};
+static const GLenum float_formats[] = {GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F};
+
+static GLsizei halved(uint32_t side, uint32_t level) {
+    uint32_t half = level < 32 ? side >> level : 0;
+    return half ? (GLsizei)half : 1;
+}
+
+/* Storage of one level, filled from `samples` where there are some. */
+static void define_level(const plr_gl *gl, const plr_texture *texture, GLint level, GLint inner,
+                         GLenum format, GLenum type, const char *samples, size_t face_bytes) {
+    GLsizei width = halved(texture->width, (uint32_t)level);
+    GLsizei height = halved(texture->height, (uint32_t)level);
+    switch (plr_texture_dimensions(texture)) {
+    case PLR_TEXTURE_3D:
+        gl->TexImage3D(GL_TEXTURE_3D, level, inner, width, height,
+                       halved(texture->image.depth, (uint32_t)level), 0, format, type, samples);
+        break;
+    case PLR_TEXTURE_CUBE:
+        for (GLuint face = 0; face < 6; face++)
+            gl->TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, inner, width, height, 0,
+                           format, type, samples ? samples + face * face_bytes : NULL);
+        break;
+    default:
+        gl->TexImage2D(GL_TEXTURE_2D, level, inner, width, height, 0, format, type, samples);
+        break;
+    }
+}
+
+static bool define_image(const plr_gl *gl, plr_texture *texture) {
+    const plr_image *image = &texture->image;
+    bool is_float = image->type == PLR_FLOAT32;
+    GLint inner = (GLint)(is_float ? float_formats : unorm16_formats)[image->components - 1];
+    GLenum format = formats[image->components - 1], type = is_float ? GL_FLOAT : GL_UNSIGNED_SHORT;
+    const char *samples = image->samples;
+    for (uint32_t level = 0; level <= image->mipmaps; level++) {
+        size_t count = plr_image_level_samples(image, level);
+        uint16_t *wide = NULL;
+        if (image->type == PLR_UNORM8 && !(wide = widen((const uint8_t *)samples, count)))
+            return false;
+        size_t bytes = count * (is_float ? sizeof(float) : sizeof(uint16_t));
+        define_level(gl, texture, (GLint)level, inner, format, type,
+                     wide ? (const char *)wide : samples, bytes / 6);
+        free(wide);
+        samples += count * plr_image_sample_size(image->type);
+    }
+    return true;
+}
+
+static void define_generated(const plr_gl *gl, const plr_texture *texture) {
+    if (texture->depth)
+        define_level(gl, texture, 0, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, NULL, 0);
+    else
+        define_level(gl, texture, 0, GL_RGBA16F, GL_RGBA, GL_FLOAT, NULL, 0);
+}
+
+/* L and LA read as L, L, L, A; so do depths. */
+static void set_swizzle(const plr_gl *gl, const plr_texture *texture, GLenum target) {
+    if (texture->voxels || texture->components > 2)
+        return;
+    GLint alpha = texture->components == 2 ? GL_GREEN : GL_ONE;
+    const GLint swizzle[] = {GL_RED, GL_RED, GL_RED, alpha};
+    gl->TexParameteriv(target, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+}
+
+/* Without a sampler object: linear, no mipmaps but those of the file. */
+static void set_parameters(const plr_gl *gl, const plr_texture *texture, GLenum target) {
+    static const GLenum wraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
+    for (int i = 0; i < 3; i++)
+        gl->TexParameteri(target, wraps[i], GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, (GLint)texture->image.mipmaps);
+    set_swizzle(gl, texture, target);
+}
+
+bool plr_texture_upload(plr_textures *t, plr_texture *texture) {
+    const plr_gl *gl = t->gl;
+    GLenum target = plr_texture_target(texture->kind);
+    while (gl->GetError() != GL_NO_ERROR)
+        ;
+    gl->GenTextures(1, &texture->name);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(target, texture->name);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    bool fine = true;
+    if (texture->generated)
+        define_generated(gl, texture);
+    else
+        fine = define_image(gl, texture);
+    set_parameters(gl, texture, target);
+    plr_texture_make_samplers(t, texture);
+    fine = fine && gl->GetError() == GL_NO_ERROR;
+    texture->stale_mipmaps = texture->image.mipmaps == 0;
+    plr_image_free(&texture->image);
+    return fine;
+}
+
+void plr_texture_drawn(plr_texture *texture) {
+    texture->stale_mipmaps = true;
+}
