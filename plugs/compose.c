@@ -175,6 +175,15 @@ typedef PLR_LIST(extension) extensions;
 
 static const char *const behaviours[] = {"disable", "warn", "enable", "require"};
 
+/* Extensions whose words are written anew, and that the program's version has in itself. */
+static bool is_replaced(const plr_ident *ident) {
+    static const char *const names[] = {"GL_EXT_geometry_shader4", "GL_ARB_geometry_shader4"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i]) == ident->length && memcmp(names[i], ident->text, ident->length) == 0)
+            return true;
+    return false;
+}
+
 /* The strongest behaviour that anyone asks for holds. */
 static void merge_extension(composer *c, extensions *list, plr_table *known, const plr_unit *unit,
                             const plr_directive *directive) {
@@ -189,6 +198,8 @@ static void merge_extension(composer *c, extensions *list, plr_table *known, con
         if (strlen(behaviours[b]) == asked->length &&
             memcmp(behaviours[b], asked->text, asked->length) == 0)
             behaviour = b;
+    if (is_replaced(plr_token_ident(unit, name)))
+        return;
     uint32_t gid = plr_token_gid(unit, name);
     void **slot = plr_table_put(c->l->pass, known, (uint64_t)gid + 1);
     if (!*slot) {
@@ -269,6 +280,97 @@ static void print_extensions(composer *c) {
             print_group_extensions(c, &scopes[e]);
 }
 
+/* ---- The geometry stage ------------------------------------------------------------------------
+ */
+
+/* `layout (triangles) in;`: what an input array's size follows from; or a built-in block. */
+static bool is_shape(const plr_node *node) {
+    const plr_item *item = node->item;
+    const plr_unit *unit = node->unit;
+    if (item->kind == PLR_ITEM_BLOCK || item->kind == PLR_ITEM_VARIABLE)
+        return !node->symbol;
+    if (item->kind != PLR_ITEM_KEPT || item->end < item->first + 3)
+        return false;
+    const plr_token *tokens = unit->lexed->tokens.items;
+    uint16_t word = tokens[item->end - 2].kind == PLR_T_IDENT
+                        ? plr_token_ident(unit, item->end - 2)->word
+                        : PLR_WORD_NONE;
+    return tokens[item->first].kind == PLR_T_IDENT &&
+           plr_token_ident(unit, item->first)->word == PLR_WORD_layout &&
+           (word == PLR_WORD_in || word == PLR_WORD_out);
+}
+
+/* An array of arrays is what 3.30 does not have. */
+static bool passes_arrays(const plr_linking *l) {
+    for (size_t i = 0; i < l->passed.count; i++)
+        if (l->passed.items[i].array)
+            return true;
+    return false;
+}
+
+static void print_passed(composer *c) {
+    plr_linking *l = c->l;
+    for (size_t i = 0; i < l->passed.count; i++) {
+        const plr_passed *p = &l->passed.items[i];
+        const char *array = p->array ? plr_arena_format(l->pass, "[%u]", (unsigned)p->array) : "";
+        if (!p->declared)
+            plr_print_own(c->printer, plr_arena_format(l->pass, "%sin %s%s[]%s;\n", p->input,
+                                                       p->type, p->name, array));
+        plr_print_own(c->printer, plr_arena_format(l->pass, "%sout %s%s%s;\n", p->output, p->type,
+                                                   p->passed, array));
+    }
+}
+
+typedef enum way {
+    WAY_SET,
+    WAY_ZERO,
+    WAY_ADD
+} way;
+
+static void print_way(composer *c, const plr_passed *p, way w) {
+    plr_linking *l = c->l;
+    const char *to = p->passed, *from = plr_arena_format(l->pass, "%s[index]", p->name);
+    if (p->array) {
+        plr_print_own(c->printer,
+                      plr_arena_format(l->pass, "    for (int i = 0; i < %u; i++)\n    ",
+                                       (unsigned)p->array));
+        to = plr_arena_format(l->pass, "%s[i]", to);
+        from = plr_arena_format(l->pass, "%s[i]", from);
+    }
+    const char *line = plr_arena_format(l->pass, "%s = %s", to, from);
+    if (w == WAY_ZERO)
+        line = plr_arena_format(l->pass, "%s = %s(0)", to, p->type);
+    else if (w == WAY_ADD && !p->whole)
+        line = plr_arena_format(l->pass, "%s += %s * scale", to, from);
+    plr_print_own(c->printer, plr_arena_format(l->pass, "    %s;\n", line));
+}
+
+/* The functions that a base of the stage declares, for its own to call. */
+static void print_ways(composer *c) {
+    static const struct {
+        const char *name, *head;
+    } ways[] = {
+        [WAY_SET] = {"plugray_varyings_set", "\nvoid plugray_varyings_set(const int index) {\n"},
+        [WAY_ZERO] = {"plugray_varyings_zero", "\nvoid plugray_varyings_zero() {\n"},
+        [WAY_ADD] = {"plugray_varyings_add",
+                     "\nvoid plugray_varyings_add(const int index, const float scale) {\n"},
+    };
+    plr_linking *l = c->l;
+    for (unsigned w = 0; w <= WAY_ADD; w++) {
+        uint32_t gid = plr_gid_find(l, ways[w].name, strlen(ways[w].name));
+        const plr_binding *symbol =
+            gid == PLR_NONE
+                ? NULL
+                : plr_binding_find(l, plr_scope_of(l, c->stage, PLR_SCOPE_BASE(l)), gid);
+        if (!symbol || !symbol->weak || !symbol->reached)
+            continue;
+        plr_print_own(c->printer, ways[w].head);
+        for (size_t i = 0; i < l->passed.count; i++)
+            print_way(c, &l->passed.items[i], (way)w);
+        plr_print_own(c->printer, "}\n");
+    }
+}
+
 static void print_head(composer *c) {
     static const char *const precisions[] = {
         "float",           "int",        "sampler2D",
@@ -278,8 +380,11 @@ static void print_head(composer *c) {
     };
     plr_linking *l = c->l;
     bool es = l->desc->glsl == PLR_GLSL_300ES;
+    int version = l->version;
+    if (c->stage == PLR_GEOMETRY && passes_arrays(l) && version < 430)
+        version = 430;
     plr_print_own(c->printer,
-                  plr_arena_format(l->pass, "#version %d %s\n", l->version, es ? "es" : "core"));
+                  plr_arena_format(l->pass, "#version %d %s\n", version, es ? "es" : "core"));
     print_extensions(c);
     for (size_t i = 0; es && i < sizeof precisions / sizeof precisions[0]; i++)
         plr_print_own(c->printer,
@@ -323,6 +428,15 @@ static void print_scope(composer *c, plr_scope *scope) {
     }
 }
 
+static void print_shapes(composer *c, plr_scope *scope) {
+    for (uint32_t u = 0; u < scope->unit_count; u++) {
+        plr_unit *unit = &scope->units[u];
+        for (size_t i = 0; unit->nodes && i < unit->cut->items.count; i++)
+            if (is_shape(&unit->nodes[i]))
+                emit(c, &unit->nodes[i]);
+    }
+}
+
 static bool has_mark(const plr_scope *base) {
     for (uint32_t u = 0; u < base->unit_count; u++)
         for (size_t i = 0; i < base->units[u].cut->items.count; i++)
@@ -335,6 +449,12 @@ void plr_compose(plr_linking *l, plr_stage stage, plr_printer *printer) {
     composer c = {.l = l, .stage = stage, .printer = printer};
     plr_scope *scopes = l->scopes[stage];
     print_head(&c);
+    if (stage == PLR_GEOMETRY) {
+        for (uint32_t e = 0; e < l->effect_count + 1; e++) /* the effects and the base */
+            if (scopes[e].live)
+                print_shapes(&c, &scopes[e]);
+        print_passed(&c);
+    }
     if (!has_mark(&scopes[PLR_SCOPE_BASE(l)]))
         print_declarations(&c);
     print_scope(&c, &scopes[PLR_SCOPE_BASE(l)]);
@@ -342,4 +462,6 @@ void plr_compose(plr_linking *l, plr_stage stage, plr_printer *printer) {
         if (scopes[e].live)
             print_scope(&c, &scopes[e]);
     print_scope(&c, &scopes[PLR_SCOPE_LIBRARY(l)]);
+    if (stage == PLR_GEOMETRY)
+        print_ways(&c);
 }

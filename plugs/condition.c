@@ -57,6 +57,7 @@ void plr_set_hosts(plr_linking *l) {
     set_host(l, es ? "GL_ES" : "GL_core_profile", number_macro(l, 1));
     if (es)
         set_host(l, "GL_es_profile", number_macro(l, 1));
+    set_host(l, "HAS_GEOMETRY_SHADER", l->no_geometry ? NULL : number_macro(l, 1));
     for (size_t i = 0; i < l->desc->define_count; i++)
         if (l->desc->defines[i].name)
             set_host(l, l->desc->defines[i].name, host_macro(l, l->desc->defines[i].value));

@@ -93,6 +93,11 @@ static void add_effect(plr_linking *l, uint32_t e) {
     for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
         plr_name_functions(l, plr_scope_of(l, (plr_stage)s, e));
     plr_commit_calls(l);
+    uint32_t gid = plr_gid_find(l, "main", 4);
+    const plr_scope *geometry = plr_scope_of(l, PLR_GEOMETRY, e);
+    const plr_binding *entry = gid == PLR_NONE ? NULL : plr_binding_find(l, geometry, gid);
+    if (entry && entry->function)
+        l->main_effect = e;
 }
 
 /* Plugs in use, for PLUG_USED; and messages about functions that are called nowhere. */

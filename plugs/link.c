@@ -87,6 +87,8 @@ static void start_round(plr_linking *l, plr_arena *pass) {
                          .targets = l->targets,
                          .placements = l->placements,
                          .targets_of = l->targets_of,
+                         .no_geometry = l->no_geometry,
+                         .main_effect = PLR_NONE,
                          .version = l->version};
     memcpy(&fresh.idents, &l->idents, sizeof fresh.idents);
     *l = fresh;
@@ -101,6 +103,7 @@ static void prepare(plr_linking *l, plr_arena *pass) {
     plr_read_all(l);
     plr_note_targets(l);
     l->pass = pass;
+    l->no_geometry = !plr_wants_geometry(l);
     plr_make_stages(l);
     plr_decide_version(l);
     plr_set_hosts(l);
@@ -118,6 +121,14 @@ static void next_pass(plr_program *program) {
     plr_arena_init(&program->pass, &program->allocator, out_of_memory);
 }
 
+/* What was asked for with the stage may not be asked for without it. */
+static void drop_geometry(plr_linking *l) {
+    l->no_geometry = true;
+    l->used = PLR_NEW_ARRAY(l->arena, l->idents.count + 1, uint8_t);
+    l->reads = PLR_NEW_ARRAY(l->arena, l->idents.count + 1, uint8_t);
+    plr_set_hosts(l);
+}
+
 static void run_rounds(plr_program *program) {
     plr_linking *l = &program->linking;
     bool sure = false; /* of the version: lines in inactive text ask for nothing */
@@ -130,6 +141,11 @@ static void run_rounds(plr_program *program) {
         plr_say_versions(l);
         if (l->base_fault)
             return;
+        if (l->stages & 1u << PLR_GEOMETRY && !plr_entry(l, PLR_GEOMETRY)) {
+            drop_geometry(l);
+            next_pass(program);
+            continue;
+        }
         if (!sure && plr_lower_version(l)) {
             sure = true;
             next_pass(program);
@@ -229,6 +245,8 @@ static bool link_program(plr_program *program, plr_diags *diags) {
     prepare(l, &program->pass);
     run_rounds(program);
     if (!l->base_fault) {
+        plr_say_stages(l);
+        plr_pass_varyings(l);
         for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
             if (l->stages & 1u << s)
                 compose_stage(program, (plr_stage)s);

@@ -74,6 +74,7 @@ struct plr_binding {
     uint32_t variant; /* 2 and more: a unit's own among several of the effect */
     bool renamed, macro, function, variable, weak /* prototypes only */, reached;
     bool builtin; /* also the name of a built-in function */
+    bool passed;  /* of the fragment stage: a geometry stage hands it on under another name */
     uint32_t stamp;
 };
 
@@ -170,6 +171,20 @@ typedef struct plr_table {
 
 typedef PLR_LIST(plr_socket *) plr_sockets;
 
+/* Begins the names that varyings have behind the geometry stage. */
+#define PLR_PASSED "plr_geo_"
+
+/* A varying that the linker carries from the vertex to the fragment stage: geometry.c. */
+typedef struct plr_passed {
+    const char *name;           /* in the vertex stage, and as the geometry stage's input */
+    const char *passed;         /* as the geometry stage's output, and in the fragment stage */
+    const char *type;           /* less its array */
+    const char *input, *output; /* how it is interpolated: "flat " */
+    uint32_t array;             /* elements; 0: none */
+    bool whole;                 /* of whole numbers, or flat: nothing to add up */
+    bool declared;              /* the author's text declares the input */
+} plr_passed;
+
 struct plr_out;
 
 typedef struct plr_linking {
@@ -191,6 +206,7 @@ typedef struct plr_linking {
     uint8_t *offered;      /* by gid: plugs of texts that ask */
     uint8_t *asked;        /* by gid: PLR_ASKED_... */
     bool dynamic, grown, all;
+    bool no_geometry; /* no text of the geometry stage has main(): there is no such stage */
 
     /* One round. */
     plr_macro **macros; /* by gid: of the scope at hand */
@@ -216,6 +232,8 @@ typedef struct plr_linking {
     bool uses_color, uses_data;    /* gl_FragColor, gl_FragData */
     uint32_t data_size;
     bool base_fault;
+    uint32_t main_effect; /* whose main() the geometry stage has; PLR_NONE: none's, so far */
+    PLR_LIST(plr_passed) passed;
     uint32_t compared; /* names with unknown ones */
 
     /* Versions. */
@@ -274,6 +292,8 @@ void plr_evaluate(plr_linking *l, plr_unit *unit);
 
 /* names.c: scopes and what identifiers mean. */
 bool plr_define_names(plr_linking *l, plr_scope *scope);
+/* Another definition of a name of the scope. */
+plr_binding *plr_declare_name(plr_linking *l, plr_node *node, const plr_name *name);
 plr_action plr_resolve(plr_linking *l, plr_unit *unit, uint32_t local);
 const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *length);
 plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint32_t gid);
@@ -316,6 +336,24 @@ void plr_reach(plr_linking *l);
 /* The functions that a direct call of PLUG_x with that many arguments means, in `found`. */
 size_t plr_direct_functions(plr_linking *l, plr_unit *unit, uint32_t token, plr_function **found,
                             size_t capacity);
+
+/* symbols.c: elements of an array whose brackets begin at `token`; 0: there are none. */
+uint32_t plr_array_size(plr_linking *l, const plr_unit *unit, uint32_t token, uint32_t end);
+
+/* geometry.c: the stage that is there only where an author gives it a main(). */
+/* Whether some text of the stage may have main(). */
+bool plr_wants_geometry(const plr_linking *l);
+/* The main() of a stage: the base's or, of the geometry stage, an effect's; NULL: there is none. */
+plr_binding *plr_entry(const plr_linking *l, plr_stage stage);
+/* Declares main() in an effect's geometry unit; false: there is one already. */
+bool plr_declare_main(plr_linking *l, plr_node *node, const plr_name *name);
+/* Says which parts of effects are left out because there is no such stage. */
+void plr_say_stages(plr_linking *l);
+/* Finds the varyings to be carried through the stage, once everything is reached. */
+void plr_pass_varyings(plr_linking *l);
+/* An output of the effect's geometry unit that its fragment units name without declaring it: a
+ * binding for them; NULL: there is none. */
+plr_binding *plr_geometry_output(plr_linking *l, const plr_unit *unit, uint32_t gid);
 
 /* effects.c: one effect after the other. */
 void plr_add_effects(plr_linking *l);

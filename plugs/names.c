@@ -217,6 +217,12 @@ static verdict judge(const plr_linking *l, const plr_binding *symbol, plr_node *
     return VERDICT_DECLARE;
 }
 
+plr_binding *plr_declare_name(plr_linking *l, plr_node *node, const plr_name *name) {
+    plr_binding *symbol = get_symbol(l, node->unit->scope, plr_token_gid(node->unit, name->token));
+    add_definition(l, symbol, node, name);
+    return symbol;
+}
+
 static void declare(plr_linking *l, plr_node *node, const plr_name *name, uint32_t gid) {
     plr_unit *unit = node->unit;
     plr_scope *scope = unit->scope;
@@ -381,6 +387,9 @@ static bool declare_in_effect(plr_linking *l, plr_node *node, const plr_name *na
     }
     if (ident->flags & PLR_IF_GL)
         return check_gl(l, node, name);
+    if (scope->stage == PLR_GEOMETRY && ident->word == PLR_WORD_main &&
+        name->kind == PLR_ITEM_FUNCTION)
+        return plr_declare_main(l, node, name);
     if (ident->flags & PLR_IF_CASTLE || is_host_variable(l, scope, name, gid))
         return name->kind == PLR_ITEM_MACRO ? (declare(l, node, name, gid), true)
                                             : share_host(l, node, name, gid);
@@ -523,6 +532,10 @@ plr_action plr_resolve(plr_linking *l, plr_unit *unit, uint32_t local) {
                    ident->word == PLR_WORD_attribute) {
             action = PLR_ACTION_SPECIAL;
         }
+    }
+    if (!symbol && action == PLR_ACTION_COPY && !kinds) {
+        symbol = plr_geometry_output(l, unit, unit->reading->gids[local]);
+        action = symbol ? PLR_ACTION_NAME : action;
     }
     if (!symbol && kinds & PLR_WORD_IS_VARIABLE) {
         const char *name = plr_word_get(ident->word)->replacement;

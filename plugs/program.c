@@ -191,6 +191,11 @@ static spelling word_spelling(const char *word, size_t length) {
 /* A word of the program as the author spelt it. `buffer` serves names that begin with _. */
 static spelling author_spelling(const plr_linking *l, const char *word, size_t length,
                                 char buffer[256]) {
+    const size_t passed = sizeof PLR_PASSED - 1;
+    if (length > passed && memcmp(word, PLR_PASSED, passed) == 0) {
+        word += passed;
+        length -= passed;
+    }
     spelling same = {word, length};
     if (length < 6 || memcmp(word, "pl", 2) != 0)
         return same;

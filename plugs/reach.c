@@ -207,13 +207,12 @@ static void drain(plr_linking *l) {
 }
 
 void plr_reach(plr_linking *l) {
-    uint32_t main_gid = plr_gid_find(l, "main", 4);
     for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
         if (!(l->stages & 1u << s))
             continue;
         plr_scope *base = plr_scope_of(l, (plr_stage)s, PLR_SCOPE_BASE(l));
-        plr_binding *entry = main_gid == PLR_NONE ? NULL : plr_binding_find(l, base, main_gid);
-        bool all = l->desc->keep_all || !entry || !entry->function;
+        plr_binding *entry = plr_entry(l, (plr_stage)s);
+        bool all = l->desc->keep_all || !entry;
         reach_roots(l, base, all);
         if (entry)
             reach_symbol(l, entry);

@@ -128,6 +128,12 @@ static void print_legacy(plr_printer *p, uint32_t token, const plr_ident *ident)
         int size = snprintf(text, sizeof text, "vec4(%s", word->replacement);
         plr_replace_token(p, t, text, (size_t)size);
         plr_push_closer(p, next->value, ")");
+    } else if (word->kinds & PLR_WORD_IS_NOTHING) {
+        plr_drop_token(p, t);
+    } else if (word->kinds & PLR_WORD_IS_INPUT) {
+        plr_replace_token(p, t, word->replacement, strlen(word->replacement));
+        if (next->kind == '[' && next->value != PLR_NONE)
+            plr_push_closer(p, next->value, ".gl_Position");
     } else if (word->kinds & (PLR_WORD_IS_SHADOW | PLR_WORD_IS_TEXTURE) && next->kind != '(') {
         plr_copy_token(p, t); /* a local name */
     } else if (word->kinds & PLR_WORD_IS_VARIABLE && p->unit->refs[t->value]) {

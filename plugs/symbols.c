@@ -46,8 +46,7 @@ static uint32_t constant_value(plr_linking *l, const plr_binding *binding, unsig
     return value + 1 == end ? token_value(l, unit, value, depth) : UINT32_MAX;
 }
 
-/* Elements of an array declared with brackets that begin at `token`; 0: there are none. */
-static uint32_t array_size(plr_linking *l, const plr_unit *unit, uint32_t token, uint32_t end) {
+uint32_t plr_array_size(plr_linking *l, const plr_unit *unit, uint32_t token, uint32_t end) {
     const plr_token *tokens = unit->lexed->tokens.items;
     if (token >= end || tokens[token].kind != '[')
         return 0;
@@ -116,9 +115,9 @@ static void add_symbol(plr_program *program, plr_table *known, const plr_node *n
         program->symbols.items[(uintptr_t)*slot - 1].stages |= 1u << stage;
         return;
     }
-    uint32_t array = array_size(l, unit, name->token + 1, node->item->end);
+    uint32_t array = plr_array_size(l, unit, name->token + 1, node->item->end);
     if (!array && unit->lexed->tokens.items[name->type + 1].kind == '[')
-        array = array_size(l, unit, name->type + 1, node->item->prefix_end);
+        array = plr_array_size(l, unit, name->type + 1, node->item->prefix_end);
     *PLR_PUSH(&program->arena, &program->symbols) = (plr_symbol){
         .kind = kind,
         .effect = unit->scope->owner < l->effect_count ? unit->scope->owner : PLR_NO_EFFECT,

@@ -126,6 +126,8 @@ void plr_make_stages(plr_linking *l) {
     for (size_t i = 0; i < l->desc->base_count; i++)
         if (l->desc->base[i])
             l->stages |= (uint8_t)(1u << l->desc->base[i]->stage);
+    if (l->no_geometry)
+        l->stages &= (uint8_t) ~(1u << PLR_GEOMETRY);
 }
 
 void plr_make_units(plr_linking *l) {

@@ -16,11 +16,15 @@ enum {
     PLR_WORD_IS_SHADOW = 32,
     PLR_WORD_IS_VARIABLE = 64,
     PLR_WORD_IS_OUTPUT = 128,
-    PLR_WORD_IS_INOUT = 256
+    PLR_WORD_IS_INOUT = 256,
+    PLR_WORD_IS_INPUT = 512,
+    PLR_WORD_IS_NOTHING = 1024,
+    PLR_WORD_IS_FUNCTION = 2048
 };
 
 #define PLR_WORD_IS_LEGACY                                                                         \
-    (PLR_WORD_IS_TEXTURE | PLR_WORD_IS_SHADOW | PLR_WORD_IS_VARIABLE | PLR_WORD_IS_OUTPUT)
+    (PLR_WORD_IS_TEXTURE | PLR_WORD_IS_SHADOW | PLR_WORD_IS_VARIABLE | PLR_WORD_IS_OUTPUT |        \
+     PLR_WORD_IS_INPUT | PLR_WORD_IS_NOTHING)
 
 typedef struct plr_word {
     const char *text;

@@ -49,7 +49,10 @@ static size_t read_files(linked *l, const char *path, const plr_source **list) {
         const char *ending;
         plr_stage stage;
     } endings[] = {
-        {".glsl", PLR_FRAGMENT}, {".vert.glsl", PLR_VERTEX}, {".frag.glsl", PLR_FRAGMENT}};
+        {".glsl", PLR_FRAGMENT},
+        {".vert.glsl", PLR_VERTEX},
+        {".geom.glsl", PLR_GEOMETRY},
+        {".frag.glsl", PLR_FRAGMENT}};
     const char *name, *text;
     size_t count = 0, length = strlen(path);
     for (size_t i = 0; (name = plr_effects_file(i, &text, NULL)); i++)

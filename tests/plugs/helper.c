@@ -43,7 +43,8 @@ void begin(void) {
 
 static plr_source *read_text(plr_stage stage, const char *name, const char *text) {
     char file[64];
-    snprintf(file, sizeof file, "%s.%s", name, stage == PLR_VERTEX ? "vert" : "frag");
+    static const char *const endings[] = {"vert", "geom", "frag"};
+    snprintf(file, sizeof file, "%s.%s", name, endings[stage]);
     plr_origin origin = {.file = file};
     plr_source *source =
         plr_source_read(stage, text, strlen(text), &origin, NULL, state.result.diags);
@@ -57,6 +58,10 @@ void base(const char *text) {
 
 void base_vertex(const char *text) {
     state.base[state.desc.base_count++] = read_text(PLR_VERTEX, "base", text);
+}
+
+void base_geometry(const char *text) {
+    state.base[state.desc.base_count++] = read_text(PLR_GEOMETRY, "base", text);
 }
 
 void library(const char *text) {
@@ -95,6 +100,10 @@ void vertex_unit(const char *text) {
     add_unit(PLR_VERTEX, text);
 }
 
+void geometry_unit(const char *text) {
+    add_unit(PLR_GEOMETRY, text);
+}
+
 plr_link_desc *description(void) {
     return &state.desc;
 }
@@ -105,7 +114,9 @@ const linked *link_all(void) {
     r->program = plr_link(&state.desc, r->diags);
     r->fragment = r->program ? plr_program_text(r->program, PLR_FRAGMENT, NULL) : NULL;
     r->vertex = r->program ? plr_program_text(r->program, PLR_VERTEX, NULL) : NULL;
+    r->geometry = r->program ? plr_program_text(r->program, PLR_GEOMETRY, NULL) : NULL;
     r->fragment = r->fragment ? r->fragment : "";
+    r->geometry = r->geometry ? r->geometry : "";
     r->vertex = r->vertex ? r->vertex : "";
     return r;
 }
@@ -150,13 +161,15 @@ bool link_compiles(void) {
     }
     const linked *r = link_all();
     bool good = r->program != NULL;
-    glslang_shader_t *shaders[2] = {NULL, NULL};
-    if (*r->vertex)
-        shaders[0] = compile(r->vertex, GLSLANG_STAGE_VERTEX, &good);
-    if (*r->fragment)
-        shaders[1] = compile(r->fragment, GLSLANG_STAGE_FRAGMENT, &good);
+    const char *const texts[] = {r->vertex, r->geometry, r->fragment};
+    const glslang_stage_t stages[] = {GLSLANG_STAGE_VERTEX, GLSLANG_STAGE_GEOMETRY,
+                                      GLSLANG_STAGE_FRAGMENT};
+    glslang_shader_t *shaders[3] = {NULL, NULL, NULL};
+    for (int i = 0; i < 3; i++)
+        if (*texts[i])
+            shaders[i] = compile(texts[i], stages[i], &good);
     glslang_program_t *program = glslang_program_create();
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 3; i++)
         if (shaders[i] && good)
             glslang_program_add_shader(program, shaders[i]);
     if (good && !glslang_program_link(program, GLSLANG_MSG_DEFAULT_BIT)) {
@@ -164,7 +177,7 @@ bool link_compiles(void) {
         print_comment(glslang_program_get_info_log(program));
     }
     glslang_program_delete(program);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 3; i++)
         if (shaders[i])
             glslang_shader_delete(shaders[i]);
     return good;
@@ -213,5 +226,6 @@ void explain(void) {
                plr_severity_text(diag->severity), diag->message, plr_code_text(diag->code));
     }
     print_comment(state.result.vertex ? state.result.vertex : "");
+    print_comment(state.result.geometry ? state.result.geometry : "");
     print_comment(state.result.fragment ? state.result.fragment : "");
 }

@@ -9,7 +9,7 @@
 typedef struct linked {
     plr_diags *diags;
     plr_program *program;
-    const char *fragment, *vertex; /* "" where there is none */
+    const char *fragment, *vertex, *geometry; /* "" where there is none */
 } linked;
 
 /* Starts a new description; what the last one made is freed. Fragment texts have the files
@@ -18,12 +18,14 @@ typedef struct linked {
 void begin(void);
 void base(const char *text);
 void base_vertex(const char *text);
+void base_geometry(const char *text);
 void library(const char *text);
 void library_vertex(const char *text);
 /* A new effect of one fragment unit; more units and stages are added to it. */
 plr_effect *effect(const char *text);
 void unit(const char *text);
 void vertex_unit(const char *text);
+void geometry_unit(const char *text);
 /* Units of the effect added last that another effect uses as well. */
 plr_effect *same_effect_again(void);
 plr_link_desc *description(void);
