@@ -477,6 +477,13 @@ bool plr_bind_needs(const plr_slots *slots, const char *name) {
     return false;
 }
 
+bool plr_bind_reads(const plr_slots *slots, const plr_texture *texture) {
+    for (size_t i = 0; i < slots->count; i++)
+        if (slots->items[i].source == SLOT_TEXTURE && slots->items[i].texture == texture)
+            return true;
+    return false;
+}
+
 static void set_floats(const plr_gl *gl, const plr_slot *slot, GLsizei count, const float *values,
                        bool transpose) {
     switch (slot->type->components) {

@@ -59,6 +59,8 @@ void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *rec
                    const plr_program *program, const plr_built *built, plr_slots *slots);
 /* Whether any slot takes a value that the engine knows by this name ("gradientUnit"). */
 bool plr_bind_needs(const plr_slots *slots, const char *name);
+/* Whether any sampler reads this texture. */
+bool plr_bind_reads(const plr_slots *slots, const plr_texture *texture);
 /* Sets all uniforms of the program in use and binds its textures. Needs GL. */
 void plr_bind_set(const plr_gl *gl, plr_textures *textures, const plr_slots *slots,
                   const plr_values *values);

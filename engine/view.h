@@ -58,34 +58,64 @@ typedef struct plr_surface {
     double depth; /* of the centre, in this frame */
 } plr_surface;
 
+typedef struct plr_background {
+    plr_node *node; /* NULL: none */
+    plr_matrix to_world;
+    plr_pass pass; /* of more than one colour */
+} plr_background;
+
+/* What is drawn together: the scene, or what a RenderedTexture shows in its place. A view has the
+ * fields of the one that it is at as its own (plr_view_enter). */
+#define PLR_WORLD_FIELDS                                                                           \
+    plr_flat flat;                                                                                 \
+    const plr_viewpoint *viewpoint;                                                                \
+    plr_background background;                                                                     \
+    plr_volume_pass volumes;                                                                       \
+    plr_model **models;                                                                            \
+    size_t model_count;                                                                            \
+    plr_surface *surfaces;                                                                         \
+    size_t surface_count;                                                                          \
+    plr_surface **blending; /* the translucent ones */                                             \
+    size_t blending_count;
+
+typedef struct plr_world {
+    PLR_WORLD_FIELDS
+} plr_world;
+
 struct plr_view {
     plr_arena arena;
     plr_engine *engine; /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;
     plr_scene *scene;
     plr_view_desc desc;
-    plr_flat flat;
-    const plr_viewpoint *viewpoint;
     plr_textures textures;
     plr_kitchen kitchen;
     plr_composer composer;
-    plr_pass background; /* of more than one colour */
-    plr_volume_pass volumes;
-    plr_model **models;
-    size_t model_count;
-    plr_surface *surfaces;
-    size_t surface_count;
-    plr_surface **blending; /* the translucent ones */
-    size_t blending_count;
+    union {
+        plr_world world;
+        struct {
+            PLR_WORLD_FIELDS
+        };
+    };
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_view_stats stats;
 };
 
+/* Puts the world in the place of the one that the view is at, and that one into *world: twice is
+ * back. */
+void plr_view_enter(plr_view *view, plr_world *world);
+
 /* ---- Making passes ready ---- */
 
+/* Background, surfaces and volumes of what view->flat holds. */
+void plr_world_prepare(plr_view *view, plr_diags *diags);
+/* Locations of all its programs. Needs GL. */
+void plr_world_find(plr_view *view);
+void plr_world_finish(plr_view *view);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
-void plr_background_prepare(plr_view *view);
+/* Makes the program of background->node; nothing where a clear colour will do. */
+void plr_background_prepare(plr_view *view, plr_background *background);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
@@ -95,8 +125,9 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
 
 /* ---- Drawing ---- */
 
-/* Clears colour and depth, then draws the background. */
-void plr_background_draw(plr_view *view, const plr_frame *frame);
+/* Clears colour and depth, then draws the background. `behind`: the colour where there is none. */
+void plr_background_draw(plr_view *view, const plr_background *background, const plr_frame *frame,
+                         const float behind[4]);
 /* Draws one cast; depths say in which order (plr_volume_depths). */
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
 /* Finds the depths of the casts in this frame and sorts them, the farthest first. */

@@ -1,0 +1,127 @@
+#include "engine/frame.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Planning ---- */
+
+/* With reversed depths the far plane is infinitely far and the near plane may be as near as it
+ * likes: precision does not depend on them. Else, and in parallel projection, they hold the
+ * surfaces tightly. What effects move beyond them is not cut off: depths are clamped. */
+void plr_frame_depths(const plr_view *view, const plr_matrix *world_to_eye, bool parallel,
+                      bool reversed, double depths[2]) {
+    plr_surfaces_depths(view, world_to_eye, depths);
+    if (!(depths[1] >= depths[0])) {
+        depths[0] = 0.1;
+        depths[1] = 10;
+    }
+    double margin = 1e-3 * (depths[1] - depths[0]) + 1e-6 * fabs(depths[1]);
+    depths[1] += margin;
+    depths[0] -= margin;
+    if (parallel)
+        return;
+    depths[1] = fmax(depths[1], 1e-3);
+    depths[0] = fmax(depths[0], depths[1] * (reversed ? 1e-7 : 1e-4));
+    if (reversed)
+        depths[1] = INFINITY;
+}
+
+void plr_frame_plan(const plr_view *view, const plr_viewpoint *viewpoint, int width, int height,
+                    bool reversed, plr_frame *frame) {
+    double depths[2];
+    plr_matrix world_to_eye;
+    plr_matrix_invert(&viewpoint->to_world, &world_to_eye);
+    bool parallel = viewpoint->node && plr_node_is(viewpoint->node, "OrthoViewpoint");
+    plr_frame_depths(view, &world_to_eye, parallel, reversed, depths);
+    *frame = (plr_frame){
+        .viewport = {0, 0, width, height}, .time = view->desc.time, .reversed_depth = reversed};
+    plr_viewpoint_cut(viewpoint, frame->cut);
+    plr_viewpoint_matrices(viewpoint, width, height, depths, &frame->projection, &frame->view);
+    if (reversed)
+        frame->projection = plr_matrix_reversed_depth(&frame->projection);
+}
+
+/* The radical inverse of Halton's sequence: sample points that fill the pixel evenly. */
+static double radical_inverse(int index, int base) {
+    double result = 0, part = 1;
+    for (; index > 0; index /= base) {
+        part /= base;
+        result += part * (index % base);
+    }
+    return result;
+}
+
+void plr_frame_jitter(plr_frame *frame, int sample, int samples) {
+    if (samples < 2)
+        return;
+    plr_matrix shift =
+        plr_matrix_translation(2 * (radical_inverse(sample + 1, 2) - 0.5) / frame->viewport[2],
+                               2 * (radical_inverse(sample + 1, 3) - 0.5) / frame->viewport[3], 0);
+    frame->projection = plr_matrix_multiply(&shift, &frame->projection);
+}
+
+bool plr_frame_reversed(const plr_view *view) {
+    return view->engine->gl.ClipControl != NULL;
+}
+
+/* ---- Drawing ---- */
+
+void plr_frame_conventions(const plr_view *view, const plr_frame *frame) {
+    const plr_gl *gl = &view->engine->gl;
+    if (gl->ClipControl)
+        gl->ClipControl(GL_LOWER_LEFT,
+                        frame->reversed_depth ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    if (frame->cut[0] > 0 || isfinite(frame->cut[1]))
+        gl->Disable(GL_DEPTH_CLAMP);
+    else
+        gl->Enable(GL_DEPTH_CLAMP);
+}
+
+static void draw_surface(plr_view *view, plr_surface *surface, const plr_frame *frame,
+                         const plr_shot *shot) {
+    if (!shot->avoid || !plr_bind_reads(&surface->model->pass.slots, shot->avoid))
+        plr_surface_draw(view, surface, frame);
+}
+
+void plr_frame_draw_opaque(plr_view *view, const plr_frame *frame, const plr_shot *shot) {
+    for (size_t i = 0; i < view->surface_count; i++)
+        if (!view->surfaces[i].model->blends)
+            draw_surface(view, &view->surfaces[i], frame, shot);
+}
+
+static int farther_first(const void *a, const void *b) {
+    double x = (*(plr_surface *const *)a)->depth, y = (*(plr_surface *const *)b)->depth;
+    return x < y ? 1 : x > y ? -1 : 0;
+}
+
+/* Translucent surfaces and volumes, from the farthest to the nearest. Volumes read the depths of
+ * the frame, so they are drawn without them where that texture belongs to the framebuffer. */
+void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const plr_shot *shot) {
+    const plr_gl *gl = &view->engine->gl;
+    qsort(view->blending, view->blending_count, sizeof *view->blending, farther_first);
+    plr_volume_depths(view, frame);
+    size_t next = 0;
+    for (size_t i = 0; i < view->volumes.cast_count; i++) {
+        const plr_cast *cast = &view->volumes.casts[i];
+        while (next < view->blending_count && view->blending[next]->depth > cast->depth)
+            draw_surface(view, view->blending[next++], frame, shot);
+        if (shot->avoid && plr_bind_reads(&cast->pass.slots, shot->avoid))
+            continue;
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, shot->without_depth);
+        plr_cast_draw(view, cast, frame);
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, shot->framebuffer);
+    }
+    while (next < view->blending_count)
+        draw_surface(view, view->blending[next++], frame, shot);
+}
+
+void plr_frame_draw(plr_view *view, const plr_frame *frame, const plr_shot *shot) {
+    const plr_gl *gl = &view->engine->gl;
+    plr_frame_conventions(view, frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, shot->framebuffer);
+    gl->Viewport((GLint)frame->viewport[0], (GLint)frame->viewport[1], (GLsizei)frame->viewport[2],
+                 (GLsizei)frame->viewport[3]);
+    plr_background_draw(view, shot->background, frame, shot->behind);
+    plr_frame_draw_opaque(view, frame, shot);
+    plr_frame_draw_translucent(view, frame, shot);
+}

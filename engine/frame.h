@@ -1,0 +1,38 @@
+/* One drawing of a world: from one camera into one framebuffer. Needs GL. */
+#ifndef PLR_ENGINE_FRAME_H
+#define PLR_ENGINE_FRAME_H
+
+#include "engine/view.h"
+
+/* Where it is drawn, and what of the world. */
+typedef struct plr_shot {
+    GLuint framebuffer;   /* with colours and depths */
+    GLuint without_depth; /* the same colours, while volumes read the depths of plr_frame */
+    const plr_background *background;
+    const float *behind;      /* RGBA where there is no background; NULL: nothing is cleared */
+    const plr_texture *avoid; /* what reads this texture is left out; may be NULL */
+} plr_shot;
+
+/* Near and far planes for a camera, such that the surfaces lie between them; and sorts: the depths
+ * of this camera are those of the world until the next call. */
+void plr_frame_depths(const plr_view *view, const plr_matrix *world_to_eye, bool parallel,
+                      bool reversed, double depths[2]);
+/* The frame of a viewpoint: matrices, viewport from (0, 0), time. */
+void plr_frame_plan(const plr_view *view, const plr_viewpoint *viewpoint, int width, int height,
+                    bool reversed, plr_frame *frame);
+/* Shifts the frame to one of several samples of its pixels. */
+void plr_frame_jitter(plr_frame *frame, int sample, int samples);
+
+/* Whether our own framebuffers have reversed depths. */
+bool plr_frame_reversed(const plr_view *view);
+/* The depth conventions of our own framebuffers; not for those of hosts. */
+void plr_frame_conventions(const plr_view *view, const plr_frame *frame);
+
+/* The parts of a drawing, with the framebuffer and the viewport that are set. */
+void plr_frame_draw_opaque(plr_view *view, const plr_frame *frame, const plr_shot *shot);
+void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const plr_shot *shot);
+/* All of it into our own framebuffer: conventions, background, opaque, translucent. Binds
+ * framebuffer and viewport. */
+void plr_frame_draw(plr_view *view, const plr_frame *frame, const plr_shot *shot);
+
+#endif

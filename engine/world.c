@@ -1,0 +1,46 @@
+/* Worlds: what is drawn together, made ready and freed. */
+#include "engine/view.h"
+#include "engine/volume.h"
+
+void plr_view_enter(plr_view *view, plr_world *world) {
+    plr_world kept = view->world;
+    view->world = *world;
+    *world = kept;
+}
+
+void plr_world_prepare(plr_view *view, plr_diags *diags) {
+    view->background.node = view->flat.background;
+    view->background.to_world = view->flat.background_to_world;
+    plr_background_prepare(view, &view->background);
+    plr_surfaces_prepare(view, diags);
+    plr_volume_pass_prepare(view, diags);
+}
+
+/* The unit of gradients that no author gave is found before the voxels leave main memory. */
+static void find_gradient_units(plr_view *view) {
+    bool needed = false;
+    for (size_t i = 0; i < view->volumes.cast_count; i++)
+        needed = needed || plr_bind_needs(&view->volumes.casts[i].pass.slots, "gradientUnit");
+    for (size_t i = 0; i < view->volumes.count; i++) {
+        plr_volume_state *state = &view->volumes.volumes[i];
+        if (state->gradient_unit > 0 || !needed)
+            continue;
+        double strong = plr_image_gradient_percentile(&state->voxels->image, state->dimensions);
+        state->gradient_unit = strong > 0 ? 1 / strong : 1;
+    }
+}
+
+void plr_world_find(plr_view *view) {
+    plr_pass_find(view, &view->background.pass);
+    for (size_t i = 0; i < view->volumes.cast_count; i++)
+        plr_pass_find(view, &view->volumes.casts[i].pass);
+    for (size_t i = 0; i < view->model_count; i++)
+        plr_pass_find(view, &view->models[i]->pass);
+    find_gradient_units(view);
+}
+
+void plr_world_finish(plr_view *view) {
+    for (size_t i = 0; i < view->model_count; i++)
+        plr_model_finish(view, view->models[i]);
+    view->model_count = 0;
+}
