@@ -60,16 +60,21 @@ static void reach_special(plr_linking *l, plr_node *node, uint32_t token) {
     }
 }
 
+/* READS (name): `.name`, or an input `name` of a stage after the vertex stage. */
+static void note_read(plr_linking *l, uint32_t gid) {
+    if (!l->reads[gid]) {
+        l->reads[gid] = 1;
+        l->grown |= (l->asked[gid] & PLR_ASKED_READS) != 0;
+    }
+}
+
 static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
     plr_unit *unit = node->unit;
     const plr_token *t = &unit->lexed->tokens.items[token];
     uint8_t action = unit->actions[t->value];
     if (t->flags & (PLR_TF_MEMBER | PLR_TF_PARAM)) {
-        uint32_t gid = unit->reading->gids[t->value];
-        if (t->flags & PLR_TF_MEMBER && !l->reads[gid]) {
-            l->reads[gid] = 1;
-            l->grown |= (l->asked[gid] & PLR_ASKED_READS) != 0;
-        }
+        if (t->flags & PLR_TF_MEMBER)
+            note_read(l, unit->reading->gids[t->value]);
         if (t->flags & PLR_TF_PARAM)
             return;
     }
@@ -82,6 +87,9 @@ static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
         if (plr_is_plain(unit, t, symbol) || plr_is_hidden_local(l, unit, t, symbol))
             return;
         symbol->stamp = l->stamp;
+        if (unit->scope->stage != PLR_VERTEX && symbol->definitions &&
+            symbol->definitions->name->qualifiers & (PLR_Q_IN | PLR_Q_VARYING))
+            note_read(l, unit->reading->gids[t->value]);
         add_edge(l, node, symbol, NULL);
         reach_symbol(l, symbol);
     } else if (action == PLR_ACTION_SPECIAL) {

@@ -135,7 +135,8 @@ typedef struct plr_program plr_program;
  *
  * Conditionals see, besides the macros given: __VERSION__, GL_ES or GL_core_profile, and one of
  * PLUGRAY_VERTEX, PLUGRAY_GEOMETRY, PLUGRAY_FRAGMENT; PLUG_USED (plug) is 1 where a function is
- * called at that plug, READS (member) where `.member` occurs in reached text. */
+ * called at that plug, READS (name) where `.name` occurs in reached text, or where a stage
+ * after the vertex stage reads its input `name`. */
 PLR_API plr_program *plr_link(const plr_link_desc *desc, plr_diags *diags);
 PLR_API void plr_program_destroy(plr_program **program);
 

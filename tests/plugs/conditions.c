@@ -163,6 +163,37 @@ static void test_used(void) {
     CHECK_SILENT();
 }
 
+#define CARRYING "#if READS(carried)\nvoid PLUG_attributes() { carried = place; }\n#endif\n"
+
+static void describe_carried(const char *reader) {
+    begin();
+    base(BASE);
+    base_vertex("in vec4 place;\nvoid main() {\n  /* PLUG: attributes () */\n"
+                "  gl_Position = vec4(0.0);\n}\n");
+    library("varying vec4 carried;\n");
+    library_vertex("varying vec4 carried;\nin vec4 place;\n");
+    effect(CHANGE)->builtin = true;
+    vertex_unit(CARRYING);
+    effect(reader);
+}
+
+/* A vertex stage hands on what a later stage reads. */
+static void test_reads_of_stages(void) {
+    describe_carried(CHANGE);
+    const linked *r = link_valid();
+    CHECK_LACKS(r->vertex, "carried");
+    describe_carried("void PLUG_change(inout vec4 x) { x += carried; }\n");
+    r = link_valid();
+    CHECK_HAS(r->vertex, "carried = place;");
+    describe_carried("varying vec4 carried;\nvoid PLUG_change(inout vec4 x) { x += carried; }\n");
+    r = link_valid();
+    CHECK_HAS(r->vertex, "carried = place;");
+    describe_carried("varying vec4 carried;\nfloat f() { return carried.x; }\n" CHANGE);
+    r = link_valid();
+    CHECK_LACKS(r->vertex, "carried");
+    CHECK_SILENT();
+}
+
 /* ---- Versions and extensions -------------------------------------------------------------------
  */
 
@@ -231,6 +262,7 @@ int main(void) {
     test_twins();
     test_macros_across_units();
     test_used();
+    test_reads_of_stages();
     test_versions();
     test_extensions();
     test_other_lines();
