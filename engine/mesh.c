@@ -17,18 +17,45 @@ static bool is_false(const plr_node *node, const char *name) {
     return field && field->type == PLR_SFBOOL && !field->value.bools[0];
 }
 
+static const struct {
+    const char *type;
+    bool (*make)(plr_maker *maker);
+} makers[] = {
+    {"Box", plr_make_box},
+    {"Sphere", plr_make_sphere},
+    {"Cone", plr_make_cone},
+    {"Cylinder", plr_make_cylinder},
+    {"Teapot", plr_make_teapot},
+    {"Plane", plr_make_rectangle},
+    {"Rectangle2D", plr_make_rectangle},
+    {"Arc2D", plr_make_arc},
+    {"ArcClose2D", plr_make_arc_close},
+    {"Circle2D", plr_make_circle},
+    {"Disk2D", plr_make_disk},
+    {"Polyline2D", plr_make_polyline},
+    {"Polypoint2D", plr_make_polypoint},
+    {"TriangleSet2D", plr_make_triangles2d},
+};
+
+static bool make(plr_maker *maker) {
+    if (plr_mesh_is_polygons(maker->node)) {
+        plr_polygons polygons = {.arena = maker->arena, .node = maker->node, .diags = maker->diags};
+        return plr_polygons_read(&polygons) && plr_polygons_emit(&polygons, maker->mesh);
+    }
+    for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
+        if (strcmp(plr_node_type(maker->node), makers[i].type) == 0)
+            return makers[i].make(maker);
+    plr_diags_add(maker->diags, PLR_CODE_NOT_DRAWN, plr_node_place(maker->node),
+                  "plugray does not draw %s yet", plr_node_type(maker->node));
+    return false;
+}
+
 static bool build(plr_arena *arena, const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
+    plr_maker maker = {.arena = arena, .node = geometry, .mesh = mesh, .diags = diags};
     mesh->two_sided = is_false(geometry, "solid");
     mesh->clockwise = is_false(geometry, "ccw");
-    if (plr_mesh_is_polygons(geometry)) {
-        plr_polygons polygons = {.arena = arena, .node = geometry, .diags = diags};
-        if (!plr_polygons_read(&polygons) || !plr_polygons_emit(&polygons, mesh))
-            return false;
-    } else if (!plr_mesh_shape(arena, geometry, mesh)) {
-        plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(geometry),
-                      "plugray does not draw %s yet", plr_node_type(geometry));
+    if (!make(&maker))
         return false;
-    }
     if (!mesh->vertex_count)
         return false;
     plr_mesh_find_bounds(mesh);

@@ -87,7 +87,49 @@ void *plr_mesh_array(plr_arena *arena, size_t count, size_t size);
 /* mesh_mapping.c: what both mappings rest upon. */
 void plr_mesh_find_bounds(plr_mesh *mesh);
 
-/* mesh_shapes.c: Box, Sphere, ... False if the node is none of them. */
-bool plr_mesh_shape(plr_arena *arena, const plr_node *node, plr_mesh *mesh);
+/* A shape that is described by a few numbers, on its way to a mesh. */
+typedef struct plr_maker {
+    plr_arena *arena;
+    const plr_node *node;
+    plr_mesh *mesh;
+    plr_diags *diags;
+} plr_maker;
+
+/* mesh_add.c: meshes put together vertex by vertex. Triangles have normals and texture coordinates,
+ * lines their lengths; nothing beyond what is reserved may be added. */
+void plr_mesh_reserve(plr_maker *maker, plr_mesh_kind kind, size_t vertices, size_t indices);
+/* The normal need not have length 1. */
+uint32_t plr_mesh_add_vertex(plr_mesh *mesh, const double position[3], const double normal[3],
+                             double tex_s, double tex_t);
+void plr_mesh_add_triangle(plr_mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
+/* One polyline or a row of points in the plane z = 0; `at` yields point i. */
+void plr_mesh_add_points(plr_mesh *mesh, size_t count,
+                         void (*at)(const void *data, size_t i, double point[2]), const void *data);
+/* Texture coordinates by the bounding box. */
+void plr_mesh_map_plane(plr_maker *maker);
+/* How finely a field of the extension (`slices`, ...) says that a shape be divided: `standard`
+ * where it says nothing or -1, at least `least`; what is too fine is limited (warned). */
+uint32_t plr_mesh_subdivision(const plr_maker *maker, const char *field, uint32_t standard,
+                              uint32_t least);
+
+/* One function a shape; false if nothing is to be drawn. mesh_shapes.c: */
+bool plr_make_box(plr_maker *maker);
+bool plr_make_sphere(plr_maker *maker);
+bool plr_make_cone(plr_maker *maker);
+bool plr_make_cylinder(plr_maker *maker);
+bool plr_make_rectangle(plr_maker *maker);
+/* mesh_flat.c: */
+bool plr_make_arc(plr_maker *maker);
+bool plr_make_arc_close(plr_maker *maker);
+bool plr_make_circle(plr_maker *maker);
+bool plr_make_disk(plr_maker *maker);
+bool plr_make_polyline(plr_maker *maker);
+bool plr_make_polypoint(plr_maker *maker);
+bool plr_make_triangles2d(plr_maker *maker);
+/* mesh_teapot.c: */
+bool plr_make_teapot(plr_maker *maker);
+
+/* Segments of a full circle. */
+#define PLR_MESH_SLICES 96
 
 #endif

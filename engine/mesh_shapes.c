@@ -3,73 +3,44 @@
 #include "engine/mesh_internal.h"
 
 #include <math.h>
-#include <string.h>
-
-#define SLICES 96 /* around the axis */
-#define STACKS 48 /* from pole to pole */
-
-static void reserve(plr_arena *arena, plr_mesh *mesh, uint32_t vertices, uint32_t indices) {
-    mesh->positions = plr_mesh_array(arena, vertices, 3 * sizeof(float));
-    mesh->normals = plr_mesh_array(arena, vertices, 3 * sizeof(float));
-    mesh->tex_coords[0] = plr_mesh_array(arena, vertices, 4 * sizeof(float));
-    mesh->indices = plr_mesh_array(arena, indices, sizeof(uint32_t));
-}
-
-/* The normal need not have length 1. */
-static uint32_t add_vertex(plr_mesh *mesh, const double position[3], const double normal[3],
-                           double tex_s, double tex_t) {
-    size_t i = mesh->vertex_count;
-    double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    for (int axis = 0; axis < 3; axis++) {
-        mesh->positions[3 * i + (size_t)axis] = (float)position[axis];
-        mesh->normals[3 * i + (size_t)axis] =
-            (float)(length > 0 ? normal[axis] / length : axis == 1);
-    }
-    float *tex = mesh->tex_coords[0] + 4 * i;
-    tex[0] = (float)tex_s;
-    tex[1] = (float)tex_t;
-    tex[3] = 1;
-    return mesh->vertex_count++;
-}
-
-static void add_triangle(plr_mesh *mesh, uint32_t a, uint32_t b, uint32_t c) {
-    uint32_t *indices = mesh->indices + mesh->index_count;
-    indices[0] = a;
-    indices[1] = b;
-    indices[2] = c;
-    mesh->index_count += 3;
-}
 
 /* A rectangle: centre, half sides to the right and up as the texture lies, seen from their cross
- * product. */
+ * product; cut into n * n. */
 static void add_rectangle(plr_mesh *mesh, const double center[3], const double right[3],
-                          const double up[3]) {
+                          const double up[3], uint32_t n) {
     double normal[3] = {right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
                         right[0] * up[1] - right[1] * up[0]};
     uint32_t first = mesh->vertex_count;
-    for (int i = 0; i < 4; i++) {
-        double u = i == 1 || i == 2 ? 1 : -1, v = i >= 2 ? 1 : -1;
-        double position[3];
-        for (int axis = 0; axis < 3; axis++)
-            position[axis] = center[axis] + u * right[axis] + v * up[axis];
-        add_vertex(mesh, position, normal, (u + 1) / 2, (v + 1) / 2);
-    }
-    add_triangle(mesh, first, first + 1, first + 2);
-    add_triangle(mesh, first, first + 2, first + 3);
+    for (uint32_t row = 0; row <= n; row++)
+        for (uint32_t column = 0; column <= n; column++) {
+            double s = (double)column / n, t = (double)row / n, position[3];
+            for (int axis = 0; axis < 3; axis++)
+                position[axis] = center[axis] + (2 * s - 1) * right[axis] + (2 * t - 1) * up[axis];
+            plr_mesh_add_vertex(mesh, position, normal, s, t);
+        }
+    for (uint32_t row = 0; row < n; row++)
+        for (uint32_t column = 0; column < n; column++) {
+            uint32_t low = first + row * (n + 1) + column, high = low + n + 1;
+            plr_mesh_add_triangle(mesh, low, low + 1, high + 1);
+            plr_mesh_add_triangle(mesh, low, high + 1, high);
+        }
 }
 
-static void make_box(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
+bool plr_make_box(plr_maker *maker) {
     static const signed char sides[6][2][3] = {
         {{1, 0, 0}, {0, 1, 0}},  /* front: right along x, up along y */
         {{-1, 0, 0}, {0, 1, 0}}, /* back */
         {{0, 0, -1}, {0, 1, 0}}, /* right */
         {{0, 0, 1}, {0, 1, 0}},  /* left */
         {{1, 0, 0}, {0, 0, -1}}, /* top: upright when tilted towards the viewer at +Z */
-        {{1, 0, 0}, {0, 0, 1}},  /* bottom */
+        {{1, 0, 0}, {0, 0, 1}},  /* bottom: when the top is tilted away */
     };
     float size[3] = {2, 2, 2};
-    plr_node_numbers(node, "size", size, 3);
-    reserve(arena, mesh, 24, 36);
+    plr_node_numbers(maker->node, "size", size, 3);
+    /* divisions: how many cuts; 0: none */
+    uint32_t n = plr_mesh_subdivision(maker, "divisions", 0, 0) + 1;
+    size_t lines = n + 1, squares = (size_t)n * n;
+    plr_mesh_reserve(maker, PLR_MESH_TRIANGLES, 6 * lines * lines, 36 * squares);
     for (int i = 0; i < 6; i++) {
         double right[3], up[3], center[3];
         const signed char *r = sides[i][0], *u = sides[i][1];
@@ -81,8 +52,9 @@ static void make_box(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
             up[axis] = u[axis] * half;
             center[axis] = normal[axis] * half;
         }
-        add_rectangle(mesh, center, right, up);
+        add_rectangle(maker->mesh, center, right, up, n);
     }
+    return true;
 }
 
 /* The direction at the part `turn` (0 to 1) of the way around the Y axis: from the back (-Z)
@@ -94,9 +66,9 @@ static void around(double turn, double direction[3]) {
     direction[2] = -cos(angle);
 }
 
-static void sphere_vertex(plr_mesh *mesh, double radius, double turn, uint32_t stack) {
-    double latitude = acos(-1.0) * ((double)stack / STACKS - 0.5);
-    double ring = stack % STACKS == 0 ? 0 : cos(latitude);
+static void sphere_vertex(plr_mesh *mesh, double radius, double turn, double height) {
+    double latitude = acos(-1.0) * (height - 0.5);
+    double ring = height <= 0 || height >= 1 ? 0 : cos(latitude);
     double normal[3], position[3];
     around(turn, normal);
     normal[0] *= ring;
@@ -104,119 +76,131 @@ static void sphere_vertex(plr_mesh *mesh, double radius, double turn, uint32_t s
     normal[2] *= ring;
     for (int axis = 0; axis < 3; axis++)
         position[axis] = radius * normal[axis];
-    add_vertex(mesh, position, normal, turn, (double)stack / STACKS);
+    plr_mesh_add_vertex(mesh, position, normal, turn, height);
 }
 
-static void make_sphere(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
-    double radius = plr_node_number(node, "radius");
-    reserve(arena, mesh, (SLICES + 1) * (STACKS + 1), SLICES * (STACKS - 1) * 6);
-    for (uint32_t stack = 0; stack <= STACKS; stack++)
-        for (uint32_t slice = 0; slice <= SLICES; slice++) {
+bool plr_make_sphere(plr_maker *maker) {
+    plr_mesh *mesh = maker->mesh;
+    double radius = plr_node_number(maker->node, "radius");
+    uint32_t slices = plr_mesh_subdivision(maker, "slices", PLR_MESH_SLICES, 3);
+    uint32_t stacks = plr_mesh_subdivision(maker, "stacks", PLR_MESH_SLICES / 2, 2);
+    plr_mesh_reserve(maker, PLR_MESH_TRIANGLES, ((size_t)slices + 1) * (stacks + 1),
+                     (size_t)slices * (stacks - 1) * 6);
+    for (uint32_t stack = 0; stack <= stacks; stack++)
+        for (uint32_t slice = 0; slice <= slices; slice++) {
             /* at a pole each slice has its own vertex, in its middle */
-            bool pole = stack % STACKS == 0 && slice < SLICES;
-            sphere_vertex(mesh, radius, (slice + (pole ? 0.5 : 0)) / SLICES, stack);
+            bool pole = stack % stacks == 0 && slice < slices;
+            sphere_vertex(mesh, radius, (slice + (pole ? 0.5 : 0)) / slices,
+                          (double)stack / stacks);
         }
-    for (uint32_t stack = 0; stack < STACKS; stack++)
-        for (uint32_t slice = 0; slice < SLICES; slice++) {
-            uint32_t low = stack * (SLICES + 1) + slice, high = low + SLICES + 1;
+    for (uint32_t stack = 0; stack < stacks; stack++)
+        for (uint32_t slice = 0; slice < slices; slice++) {
+            uint32_t low = stack * (slices + 1) + slice, high = low + slices + 1;
             if (stack > 0)
-                add_triangle(mesh, low, low + 1, high + (stack + 1 < STACKS));
-            if (stack + 1 < STACKS)
-                add_triangle(mesh, low, high + 1, high);
+                plr_mesh_add_triangle(mesh, low, low + 1, high + (stack + 1 < stacks));
+            if (stack + 1 < stacks)
+                plr_mesh_add_triangle(mesh, low, high + 1, high);
         }
+    return true;
 }
+
+/* What stands around the Y axis. */
+typedef struct round_shape {
+    plr_mesh *mesh;
+    double bottom_radius, top_radius, height;
+    uint32_t slices, stacks;
+    bool side, top, bottom;
+} round_shape;
 
 /* A disc across the Y axis, upright when tilted towards the viewer: `facing` 1 up, -1 down. */
-static void add_disc(plr_mesh *mesh, double radius, double y, double facing) {
+static void add_disc(const round_shape *shape, double radius, double facing) {
+    plr_mesh *mesh = shape->mesh;
+    double y = facing * shape->height / 2;
     const double center[3] = {0, y, 0}, normal[3] = {0, facing, 0};
-    uint32_t middle = add_vertex(mesh, center, normal, 0.5, 0.5);
-    for (uint32_t slice = 0; slice < SLICES; slice++) {
+    uint32_t middle = plr_mesh_add_vertex(mesh, center, normal, 0.5, 0.5);
+    for (uint32_t slice = 0; slice < shape->slices; slice++) {
         double position[3];
-        around((double)slice / SLICES, position);
+        around((double)slice / shape->slices, position);
         double tex_s = 0.5 + position[0] / 2, tex_t = 0.5 - facing * position[2] / 2;
         position[0] *= radius;
         position[1] = y;
         position[2] *= radius;
-        add_vertex(mesh, position, normal, tex_s, tex_t);
+        plr_mesh_add_vertex(mesh, position, normal, tex_s, tex_t);
     }
-    for (uint32_t slice = 0; slice < SLICES; slice++) {
-        uint32_t here = middle + 1 + slice, next = middle + 1 + (slice + 1) % SLICES;
+    for (uint32_t slice = 0; slice < shape->slices; slice++) {
+        uint32_t here = middle + 1 + slice, next = middle + 1 + (slice + 1) % shape->slices;
         if (facing > 0)
-            add_triangle(mesh, middle, here, next);
+            plr_mesh_add_triangle(mesh, middle, here, next);
         else
-            add_triangle(mesh, middle, next, here);
+            plr_mesh_add_triangle(mesh, middle, next, here);
     }
 }
 
-/* The side of a cone (top radius 0) or cylinder around the Y axis. */
-static void add_side(plr_mesh *mesh, double bottom_radius, double top_radius, double height) {
-    uint32_t first = mesh->vertex_count;
-    for (uint32_t slice = 0; slice <= SLICES; slice++)
-        for (int end = 0; end < 2; end++) {
-            bool apex = end == 1 && top_radius == 0;
-            double turn = (slice + (apex && slice < SLICES ? 0.5 : 0)) / SLICES;
-            double radius = end ? top_radius : bottom_radius;
-            double outward[3];
+static void add_side(const round_shape *shape) {
+    plr_mesh *mesh = shape->mesh;
+    uint32_t first = mesh->vertex_count, slices = shape->slices, stacks = shape->stacks;
+    for (uint32_t stack = 0; stack <= stacks; stack++)
+        for (uint32_t slice = 0; slice <= slices; slice++) {
+            double t = (double)stack / stacks;
+            double radius = shape->bottom_radius + (shape->top_radius - shape->bottom_radius) * t;
+            bool apex = stack == stacks && shape->top_radius == 0;
+            double turn = (slice + (apex && slice < slices ? 0.5 : 0)) / slices, outward[3];
             around(turn, outward);
-            double position[3] = {radius * outward[0], (end - 0.5) * height, radius * outward[2]};
-            double normal[3] = {outward[0] * height, bottom_radius - top_radius,
-                                outward[2] * height};
-            add_vertex(mesh, position, normal, turn, end);
+            if (apex)
+                radius = 0;
+            double position[3] = {radius * outward[0], (t - 0.5) * shape->height,
+                                  radius * outward[2]};
+            double normal[3] = {outward[0] * shape->height,
+                                shape->bottom_radius - shape->top_radius,
+                                outward[2] * shape->height};
+            plr_mesh_add_vertex(mesh, position, normal, turn, t);
         }
-    for (uint32_t slice = 0; slice < SLICES; slice++) {
-        uint32_t low = first + 2 * slice;
-        if (top_radius > 0) {
-            add_triangle(mesh, low, low + 2, low + 3);
-            add_triangle(mesh, low, low + 3, low + 1);
-        } else {
-            add_triangle(mesh, low, low + 2, low + 1);
+    for (uint32_t stack = 0; stack < stacks; stack++)
+        for (uint32_t slice = 0; slice < slices; slice++) {
+            uint32_t low = first + stack * (slices + 1) + slice, high = low + slices + 1;
+            bool apex = stack + 1 == stacks && shape->top_radius == 0;
+            plr_mesh_add_triangle(mesh, low, low + 1, apex ? high : high + 1);
+            if (!apex)
+                plr_mesh_add_triangle(mesh, low, high + 1, high);
         }
-    }
 }
 
-static void make_cone(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
-    double radius = plr_node_number(node, "bottomRadius"), height = plr_node_number(node, "height");
-    reserve(arena, mesh, 3 * SLICES + 3, 6 * SLICES);
-    if (plr_node_bool(node, "side"))
-        add_side(mesh, radius, 0, height);
-    if (plr_node_bool(node, "bottom"))
-        add_disc(mesh, radius, -height / 2, -1);
+static bool make_round(plr_maker *maker, round_shape *shape) {
+    shape->mesh = maker->mesh;
+    shape->height = plr_node_number(maker->node, "height");
+    shape->side = plr_node_bool(maker->node, "side");
+    shape->bottom = plr_node_bool(maker->node, "bottom");
+    shape->slices = plr_mesh_subdivision(maker, "slices", PLR_MESH_SLICES, 3);
+    shape->stacks = plr_mesh_subdivision(maker, "stacks", 1, 1);
+    size_t slices = shape->slices, stacks = shape->stacks;
+    plr_mesh_reserve(maker, PLR_MESH_TRIANGLES, (slices + 1) * (stacks + 3),
+                     6 * slices * (stacks + 1));
+    if (shape->side)
+        add_side(shape);
+    if (shape->top)
+        add_disc(shape, shape->top_radius, 1);
+    if (shape->bottom)
+        add_disc(shape, shape->bottom_radius, -1);
+    return true;
 }
 
-static void make_cylinder(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
-    double radius = plr_node_number(node, "radius"), height = plr_node_number(node, "height");
-    reserve(arena, mesh, 4 * SLICES + 4, 12 * SLICES);
-    if (plr_node_bool(node, "side"))
-        add_side(mesh, radius, radius, height);
-    if (plr_node_bool(node, "top"))
-        add_disc(mesh, radius, height / 2, 1);
-    if (plr_node_bool(node, "bottom"))
-        add_disc(mesh, radius, -height / 2, -1);
+bool plr_make_cone(plr_maker *maker) {
+    round_shape shape = {.bottom_radius = plr_node_number(maker->node, "bottomRadius")};
+    return make_round(maker, &shape);
 }
 
-static void make_rectangle(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
+bool plr_make_cylinder(plr_maker *maker) {
+    double radius = plr_node_number(maker->node, "radius");
+    round_shape shape = {
+        .bottom_radius = radius, .top_radius = radius, .top = plr_node_bool(maker->node, "top")};
+    return make_round(maker, &shape);
+}
+
+bool plr_make_rectangle(plr_maker *maker) {
     float size[2] = {2, 2};
-    plr_node_numbers(node, "size", size, 2);
-    reserve(arena, mesh, 4, 6);
-    add_rectangle(mesh, (double[]){0, 0, 0}, (double[]){(double)size[0] / 2, 0, 0},
-                  (double[]){0, (double)size[1] / 2, 0});
-}
-
-static const struct {
-    const char *type;
-    void (*make)(plr_arena *arena, const plr_node *node, plr_mesh *mesh);
-} shapes[] = {{"Box", make_box},
-              {"Sphere", make_sphere},
-              {"Cone", make_cone},
-              {"Cylinder", make_cylinder},
-              {"Rectangle2D", make_rectangle}};
-
-bool plr_mesh_shape(plr_arena *arena, const plr_node *node, plr_mesh *mesh) {
-    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-        if (strcmp(plr_node_type(node), shapes[i].type) == 0) {
-            mesh->kind = PLR_MESH_TRIANGLES;
-            shapes[i].make(arena, node, mesh);
-            return true;
-        }
-    return false;
+    plr_node_numbers(maker->node, "size", size, 2);
+    plr_mesh_reserve(maker, PLR_MESH_TRIANGLES, 4, 6);
+    add_rectangle(maker->mesh, (double[]){0, 0, 0}, (double[]){(double)size[0] / 2, 0, 0},
+                  (double[]){0, (double)size[1] / 2, 0}, 1);
+    return true;
 }
