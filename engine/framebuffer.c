@@ -149,3 +149,49 @@ bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels) {
         flip_rows(pixels, (size_t)framebuffer->width * 4, (size_t)framebuffer->height);
     return read;
 }
+
+/* ---- Textures of others as targets ---- */
+
+bool plr_canvas_create(plr_canvas *canvas, const plr_gl *gl, int width, int height, bool depths) {
+    *canvas = (plr_canvas){.gl = gl};
+    gl->GenFramebuffers(1, &canvas->name);
+    if (depths)
+        return true;
+    saved_state state;
+    save(gl, &state);
+    forget_errors(gl);
+    gl->GenFramebuffers(1, &canvas->without_depth);
+    gl->GenTextures(1, &canvas->depth);
+    make_texture(gl, canvas->depth, GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->name);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, canvas->depth, 0);
+    bool fine = gl->GetError() == GL_NO_ERROR;
+    restore(gl, &state);
+    return fine;
+}
+
+void plr_canvas_attach(const plr_canvas *canvas, GLenum face, GLuint texture) {
+    const plr_gl *gl = canvas->gl;
+    if (canvas->without_depth) {
+        gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->without_depth);
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, face, texture, 0);
+    }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->name);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER,
+                             canvas->depth ? GL_COLOR_ATTACHMENT0 : GL_DEPTH_ATTACHMENT, face,
+                             texture, 0);
+    if (!canvas->depth) {
+        gl->DrawBuffer(GL_NONE);
+        gl->ReadBuffer(GL_NONE);
+    }
+}
+
+void plr_canvas_destroy(plr_canvas *canvas) {
+    const plr_gl *gl = canvas->gl;
+    if (!gl)
+        return;
+    gl->DeleteFramebuffers(1, &canvas->name);
+    gl->DeleteFramebuffers(1, &canvas->without_depth);
+    gl->DeleteTextures(1, &canvas->depth);
+    *canvas = (plr_canvas){0};
+}

@@ -27,4 +27,22 @@ void plr_framebuffer_bind(const plr_framebuffer *framebuffer);
 /* Reads width * height RGBA floats, top row first. No state of the context changes. */
 bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels);
 
+/* ---- Textures of others as targets ---- */
+
+/* What draws into a texture: the texture's image is attached, depths are its own. */
+typedef struct plr_canvas {
+    const plr_gl *gl;
+    GLuint name;          /* colours and depths; depths alone where the texture holds depths */
+    GLuint without_depth; /* the same colours alone, while the depths are read; 0 without colours */
+    GLuint depth;         /* 2D texture, DEPTH_COMPONENT32F; 0: the texture's own */
+} plr_canvas;
+
+/* No state of the context changes. False if the context cannot. */
+bool plr_canvas_create(plr_canvas *canvas, const plr_gl *gl, int width, int height, bool depths);
+/* Attaches level 0 of a texture: GL_TEXTURE_2D or the face of a cube map. Changes what is bound for
+ * drawing and reading. */
+void plr_canvas_attach(const plr_canvas *canvas, GLenum face, GLuint texture);
+/* Frees what it made in GL; a struct of zeros is fine. */
+void plr_canvas_destroy(plr_canvas *canvas);
+
 #endif

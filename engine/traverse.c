@@ -210,6 +210,24 @@ void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *
         *PLR_PUSH(arena, &flat->global_lights) = (plr_light){NULL, identity};
 }
 
+void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
+                      plr_flat *flat, plr_diags *diags) {
+    *flat = (plr_flat){0};
+    walk w = {arena, flat, diags, PLR_NEW(arena, plr_scope), 0};
+    plr_matrix identity = plr_matrix_identity();
+    visit(&w, node, &identity);
+    bool *inside = PLR_NEW_ARRAY(arena, plr_scene_node_count(scene) + 1, bool);
+    for (size_t i = 0; i < flat->all_lights.count; i++)
+        inside[plr_node_id(flat->all_lights.items[i].node)] = true;
+    for (size_t i = 0; i < around->global_lights.count; i++) {
+        plr_light light = around->global_lights.items[i];
+        if (light.node ? !inside[plr_node_id(light.node)] : !flat->navigation)
+            *PLR_PUSH(arena, &flat->global_lights) = light;
+    }
+    if (flat->navigation && plr_node_bool(flat->navigation, "headlight"))
+        *PLR_PUSH(arena, &flat->global_lights) = (plr_light){NULL, identity};
+}
+
 const plr_viewpoint *plr_flat_viewpoint(const plr_flat *flat, const char *selector) {
     static const plr_viewpoint standard = {NULL,
                                            {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 10, 1}}};

@@ -60,6 +60,10 @@ typedef struct plr_flat {
 /* Flattens the scene; everything is allocated in the arena. Nodes that cannot be drawn yet give a
  * `not-drawn` warning. */
 void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags);
+/* Flattens one node and what is inside it, in world coordinates of its own. The global lights
+ * around it light it, too; the headlight is as around where it has no NavigationInfo. */
+void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
+                      plr_flat *flat, plr_diags *diags);
 
 /* The viewpoint that `selector` names: NULL or "" the first, a number from 1, a DEF name, a
  * description; NULL if there is none such. */
