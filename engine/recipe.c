@@ -237,9 +237,22 @@ void plr_recipe_groups(plr_kitchen *k, plr_recipe *recipe, const plr_scope *scop
             plr_recipe_author(k, recipe, scope->effects.items[i], attached, volume);
 }
 
+/* The units of one stage. */
+static void add_stage(plr_kitchen *k, plr_sources *to, const plr_sources *from, plr_stage stage) {
+    for (size_t i = 0; i < from->count; i++)
+        if (plr_source_stage(from->items[i]) == stage)
+            *PLR_PUSH(k->arena, to) = from->items[i];
+}
+
 bool plr_recipe_shader_base(plr_kitchen *k, plr_recipe *recipe, plr_node *shader) {
     if (!is_glsl(k, shader))
         return false;
     collect_parts(k, shader, &recipe->base);
-    return recipe->base.count > 0;
+    if (recipe->base.count == 0)
+        return false;
+    plr_sources geometry = {0};
+    add_stage(k, &geometry, &recipe->base, PLR_GEOMETRY);
+    if (!geometry.count) /* else for effects that bring a main() to the stage */
+        add_stage(k, &recipe->base, plr_catalog_units(k->catalog, "surface/surface"), PLR_GEOMETRY);
+    return true;
 }

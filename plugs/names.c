@@ -276,13 +276,18 @@ static bool check_gl(plr_linking *l, plr_node *node, const plr_name *name) {
     return false;
 }
 
+/* In the geometry stage an array of them comes in: the host's declaration is not meant. */
+static bool is_varying(const plr_binding *symbol) {
+    return symbol->variable && symbol->definitions->name->qualifiers & (PLR_Q_IN | PLR_Q_VARYING);
+}
+
 /* The declaration that a host name has already. */
 static const plr_definition *host_definition(const plr_linking *l, const plr_scope *scope,
                                              uint32_t gid, bool base_too) {
     const uint32_t owners[] = {PLR_SCOPE_BASE(l), PLR_SCOPE_LIBRARY(l), PLR_SCOPE_HOST(l)};
     for (unsigned i = base_too ? 0 : 1; i < 3; i++) {
         const plr_binding *symbol = plr_binding_find(l, &l->scopes[scope->stage][owners[i]], gid);
-        if (symbol && !symbol->weak)
+        if (symbol && !symbol->weak && !(scope->stage == PLR_GEOMETRY && is_varying(symbol)))
             return symbol->definitions;
     }
     return NULL;
