@@ -30,6 +30,11 @@ x3d_failure x3d_read_located(plr_scene *scene, const x3d_located *located, bool 
 /* Reads a path as it is, wherever it leads: the file that the caller names. */
 x3d_failure x3d_read_path(plr_scene *scene, const char *path, char **data, size_t *length);
 
+/* Reads what a url of a file that was read means, "data:" included; its origin says which file.
+ * `name` is for messages. */
+x3d_failure x3d_load_url(plr_scene *scene, const plr_string *url, bool gunzip, plr_bytes *bytes,
+                         const char **name);
+
 bool x3d_is_gzip(const char *data, size_t length);
 /* Unpacks; `data` is then a new block. */
 x3d_failure x3d_gunzip(plr_scene *scene, const char *packed, size_t packed_length, char **data,

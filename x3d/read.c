@@ -5,6 +5,7 @@
 
 #include "x3d/build.h"
 #include "x3d/files.h"
+#include "x3d/gltf.h"
 
 enum {
     USUAL_DEPTH = 512,
@@ -40,6 +41,10 @@ x3d_file *x3d_add_file(plr_scene *scene, const char *name, const char *folder, c
 void x3d_read_text(x3d_build *build) {
     const char *text = build->file->text;
     size_t length = build->file->length, i = 0;
+    if (x3d_is_gltf(build->file)) {
+        x3d_read_gltf(build);
+        return;
+    }
     if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         i = 3;
     if (length >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0)) {

@@ -13,8 +13,10 @@ typedef struct x3d_file {
     const char *real;   /* real path; NULL for text from memory */
     const char *text;   /* unpacked, UTF-8 */
     size_t length;
-    bool decoded;        /* the text was brought from another encoding to UTF-8 */
-    char *owned;         /* the block of the text, of x3d_block_new, or NULL */
+    bool decoded;         /* the text was brought from another encoding to UTF-8 */
+    char *owned;          /* the block of the text, of x3d_block_new, or NULL */
+    const char *attached; /* bytes behind the text, in the same block, or NULL */
+    size_t attached_length;
     const size_t *lines; /* offset of the start of each line */
     size_t line_count;
     size_t line_hint;

@@ -120,8 +120,8 @@ static x3d_failure load_located(plr_scene *scene, const x3d_located *located, bo
     return (x3d_failure){PLR_CODE_NO_MEMORY, "does not fit into memory"};
 }
 
-static x3d_failure load(plr_scene *scene, const plr_string *url, bool gunzip, plr_bytes *bytes,
-                        const char **name) {
+x3d_failure x3d_load_url(plr_scene *scene, const plr_string *url, bool gunzip, plr_bytes *bytes,
+                         const char **name) {
     size_t start;
     *name = "the data: url";
     *bytes = (plr_bytes){0};
@@ -149,7 +149,7 @@ bool plr_scene_load(plr_scene *scene, const plr_string *url, bool gunzip, plr_by
     if (setjmp(e.out_of_memory) != 0)
         return out_of_memory(&e, scene, place_of(url));
     const char *name;
-    x3d_failure failure = load(scene, url, gunzip, bytes, &name);
+    x3d_failure failure = x3d_load_url(scene, url, gunzip, bytes, &name);
     if (failure.text)
         x3d_report(scene, failure.code, place_of(url), "'%.300s' %s", name, failure.text);
     leave(&e, scene);
@@ -171,7 +171,7 @@ bool plr_scene_load_first(plr_scene *scene, const plr_field *urls, bool gunzip, 
     bool loaded = false;
     for (size_t i = 0; i < urls->count && !loaded; i++) {
         const char *name;
-        x3d_failure failure = load(scene, &urls->value.strings[i], gunzip, bytes, &name);
+        x3d_failure failure = x3d_load_url(scene, &urls->value.strings[i], gunzip, bytes, &name);
         loaded = !failure.text;
         if (loaded && index)
             *index = i;
