@@ -25,6 +25,7 @@ static const struct {
     {"Sphere", plr_make_sphere},
     {"Cone", plr_make_cone},
     {"Cylinder", plr_make_cylinder},
+    {"Extrusion", plr_make_extrusion},
     {"Teapot", plr_make_teapot},
     {"Plane", plr_make_rectangle},
     {"Rectangle2D", plr_make_rectangle},

@@ -54,6 +54,8 @@ static size_t index_count(const plr_polygons *polygons, const plr_face *face) {
 static void cut_face(plr_polygons *polygons, plr_clipper *clipper, const plr_face *face,
                      uint32_t *indices) {
     uint32_t n = face->count;
+    bool convex =
+        !polygons->concave || (size_t)(face - polygons->faces.items) < polygons->convex_faces;
     if (polygons->kind == PLR_MESH_POINTS) {
         for (uint32_t i = 0; i < n; i++)
             indices[i] = i;
@@ -62,7 +64,7 @@ static void cut_face(plr_polygons *polygons, plr_clipper *clipper, const plr_fac
             indices[2 * (size_t)i] = i;
             indices[2 * (size_t)i + 1] = i + 1;
         }
-    } else if (polygons->concave && n > 3) {
+    } else if (!convex && n > 3) {
         plr_triangulate(clipper, polygons, face, indices);
     } else {
         for (uint32_t i = 0; i + 2 < n; i++) {

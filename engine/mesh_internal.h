@@ -25,7 +25,8 @@ typedef struct plr_polygons {
     const plr_node *node;
     plr_diags *diags;
     plr_mesh_kind kind;
-    bool concave;         /* faces may be concave */
+    bool concave;         /* faces may be concave, */
+    size_t convex_faces;  /* all but the first so many */
     const float *points;  /* 3 each */
     const float *normals; /* 3 each; given or generated */
     const float *colors;  /* 4 each */
@@ -126,7 +127,8 @@ bool plr_make_disk(plr_maker *maker);
 bool plr_make_polyline(plr_maker *maker);
 bool plr_make_polypoint(plr_maker *maker);
 bool plr_make_triangles2d(plr_maker *maker);
-/* mesh_teapot.c: */
+/* mesh_extrusion.c, mesh_teapot.c: */
+bool plr_make_extrusion(plr_maker *maker);
 bool plr_make_teapot(plr_maker *maker);
 
 /* Segments of a full circle. */

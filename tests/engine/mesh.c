@@ -337,7 +337,7 @@ static void test_hostile(void) {
     f = build("IndexedFaceSet { coordIndex [ 0 0 0 ] coord Coordinate { point [ 1 1 1 ] } }");
     CHECK(f.built && f.mesh.normals[2] == 1); /* no area: no NaN */
     finish(&f);
-    f = build("Extrusion { }");
+    f = build("NurbsPatchSurface { }");
     CHECK(!f.built);
     CHECK_INT(count_code(&f, PLR_CODE_NOT_DRAWN), 1);
     finish(&f);
