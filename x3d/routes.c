@@ -194,10 +194,14 @@ static void end_route(x3d_build *build, const x3d_pending_route *route) {
     }
     for (size_t i = 0; i < sources.count; i++)
         for (size_t k = 0; k < targets.count; k++)
-            *PLR_PUSH(&scene->arena, proto ? &proto->routes : &scene->routes) = (plr_route){
-                sources.items[i].node, targets.items[k].node,
-                sources.items[i].node->fields[sources.items[i].field].name,
-                targets.items[k].node->fields[targets.items[k].field].name, route->place};
+            *PLR_PUSH(&scene->arena, proto ? &proto->routes : &scene->routes) =
+                (plr_route){sources.items[i].node,
+                            targets.items[k].node,
+                            sources.items[i].node->fields[sources.items[i].field].name,
+                            targets.items[k].node->fields[targets.items[k].field].name,
+                            (uint32_t)sources.items[i].field,
+                            (uint32_t)targets.items[k].field,
+                            route->place};
 }
 
 void x3d_scope_end(x3d_build *build) {

@@ -17,6 +17,9 @@ typedef struct x3d_type {
     plr_field *defaults;             /* parsed default values; NULL until the first use */
     const x3d_alias *const *aliases; /* of its fields; ends with NULL */
     size_t alias_count;
+    const struct x3d_behaviour *behaviour; /* what it does in time; see events.h */
+    bool transforms;                       /* moves what is below it */
+    bool behaviour_known;
 } x3d_type;
 
 /* "Field `field` of this node carries field `interface` of the prototype." */
@@ -54,10 +57,12 @@ struct plr_node {
     uint32_t owner_index; /* in the list of nodes of `owner` */
     plr_field *fields;
     size_t field_count, field_capacity;
-    x3d_room *room;            /* for each field; NULL until one is set */
-    struct x3d_proto *owner;   /* the prototype whose body it is part of; NULL in a scene */
-    x3d_instance *instance;    /* where it is the first node of an instance */
-    struct x3d_scope *inlined; /* of an Inline: the names of the file */
+    x3d_room *room;                /* for each field; NULL until one is set */
+    struct x3d_proto *owner;       /* the prototype whose body it is part of; NULL in a scene */
+    x3d_instance *instance;        /* where it is the first node of an instance */
+    struct x3d_scope *inlined;     /* of an Inline: the names of the file */
+    struct x3d_event_node *events; /* where it takes part in events */
+    uint64_t revision;
 };
 
 typedef struct x3d_node_list {
@@ -104,6 +109,8 @@ struct plr_scene {
     uint32_t node_count;
     bool uses_2005;
     plr_place place_2005;
+    struct x3d_events *events; /* NULL until a time is asked for */
+    uint64_t revision;
 };
 
 /* Reports to the diagnostics of the running call. After some hundred errors and warnings the rest

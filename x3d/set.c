@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "x3d/build.h"
+#include "x3d/events.h"
 #include "x3d/values.h"
 
 static bool is_bare_word(const plr_field *field, const char *text) {
@@ -37,6 +38,7 @@ static bool set_one(plr_scene *scene, plr_node *node, size_t index, const char *
     }
     changed.given = true;
     *field = changed;
+    x3d_events_was_set(scene, node, index, false);
     return true;
 }
 
@@ -104,6 +106,8 @@ bool plr_node_set(plr_scene *scene, plr_node *node, const char *name, const void
         /* An animated field is set every frame: its memory serves again and again. */
         if (!node->room)
             node->room = PLR_NEW_ARRAY(&scene->arena, node->field_count, x3d_room);
+        bool same = field->count == count &&
+                    (!numbers || memcmp(field->value.any, values, numbers * size) == 0);
         x3d_room *room = &node->room[index];
         if (room->count < numbers) {
             room->memory = plr_arena_array(&scene->arena, numbers, size);
@@ -114,6 +118,7 @@ bool plr_node_set(plr_scene *scene, plr_node *node, const char *name, const void
         field->value.any = room->memory;
         field->count = count;
         field->given = true;
+        x3d_events_was_set(scene, node, index, same);
         ok = true;
     }
     scene->arena.out_of_memory = outer;

@@ -1,5 +1,5 @@
-/* plugray/x3d.h - reading X3D scenes: XML, Classic VRML and VRML97, plain or gzipped, into one
- * typed graph. No GL, no drawing.
+/* plugray/x3d.h - reading X3D scenes: XML, Classic VRML and VRML97, and glTF 2.0 (.gltf, .glb),
+ * plain or gzipped, into one typed graph. No GL, no drawing.
  *
  * Thread safety: one scene may be used by one thread at a time. Nothing is printed or global. All
  * pointers that a scene gives out live until the scene is destroyed or the field is set. */
@@ -188,6 +188,7 @@ PLR_API const char *plr_scene_line(const plr_scene *scene, const char *file, uin
 typedef struct plr_route {
     plr_node *from, *to;
     const char *from_field, *to_field; /* without set_ and _changed where the field has them */
+    uint32_t from_index, to_index;     /* of these fields, for plr_node_field_at */
     plr_place place;
 } plr_route;
 PLR_API size_t plr_scene_route_count(const plr_scene *scene);
@@ -262,6 +263,30 @@ PLR_API bool plr_node_set_text(plr_scene *scene, plr_node *node, const char *fie
 /* Sets a field of numbers or bools from an array of its kind; `count` in elements. */
 PLR_API bool plr_node_set(plr_scene *scene, plr_node *node, const char *field, const void *values,
                           size_t count);
+
+/* Grows whenever a field of the node (of any node of the scene) is set to another value. */
+PLR_API uint64_t plr_node_revision(const plr_node *node);
+PLR_API uint64_t plr_scene_revision(const plr_scene *scene);
+/* What the node does to the coordinates of its children: column-major, element (row, column) at
+ * column * 4 + row. False, and the identity, for nodes that leave them alone. */
+PLR_API bool plr_node_transform(const plr_node *node, double matrix[16]);
+
+/* ---- Time ---- */
+
+/* What sensors see; matrices are column-major. */
+typedef struct plr_viewer {
+    const plr_node *viewpoint; /* bound when the scene is loaded; NULL: the first of the scene */
+    double eye_to_world[16], world_to_eye[16], projection[16];
+} plr_viewer;
+
+/* Brings the scene to `time` seconds after it was loaded: sensors, interpolators, sequencers,
+ * ROUTEs and what is bound. The result depends on the fields as file and setters gave them, on the
+ * time and on the viewer alone, not on the times asked for before. Clocks and what follows them at
+ * once are evaluated at the very time; where the past matters (toggles, triggers, clocks that start
+ * each other) it is lived through in steps of 1/32 s, and at the moments at which clocks start and
+ * end. `viewer` NULL: nobody looks. False without memory. */
+PLR_API bool plr_scene_set_time(plr_scene *scene, double time, const plr_viewer *viewer,
+                                plr_diags *diags);
 
 /* ---- The table of nodes ---- */
 
