@@ -1,5 +1,8 @@
 /* From a shape to its program: the base, the built-in effects, the authors' effects. */
+#include "engine/shadows.h"
 #include "engine/surface.h"
+
+#include <string.h>
 
 size_t plr_shape_effect(plr_shape *shape, const char *path, const char *name, plr_node *node,
                         size_t attached, const plr_define *extra, size_t extra_count) {
@@ -14,17 +17,23 @@ plr_define plr_shape_define(plr_shape *shape, const char *name, int value) {
 }
 
 void plr_shape_lights(plr_shape *shape) {
-    if (shape->lit)
-        plr_pass_lights(shape->view, shape->recipe, shape->leaf->scope, 0, PLR_NO_EFFECT);
+    if (!shape->lit)
+        return;
+    size_t from = shape->recipe->effects.count;
+    plr_pass_lights(shape->view, shape->recipe, shape->leaf->scope, 0, PLR_NO_EFFECT);
+    plr_recipe_shadows(shape->view, shape->recipe, from, PLR_NO_EFFECT, shape->appearance);
 }
 
 static void define_surface(plr_shape *shape) {
     const plr_model *model = shape->model;
+    const plr_node *colors = shape->geometry ? plr_node_child(shape->geometry, "color") : NULL;
+    bool modulate = colors && strcmp(plr_node_string(colors, "mode"), "MODULATE") == 0;
     const struct {
         const char *name;
         int value;
     } defines[] = {{"CASTLE_GLSL_VERSION_UPGRADE", 1},
                    {"HAS_COLORS", model->mesh.colors != NULL},
+                   {"COLORS_MODULATE", model->mesh.colors && modulate},
                    {"HAS_NORMALS", model->mesh.normals != NULL},
                    {"TWO_SIDED", model->mesh.two_sided},
                    {"OPAQUE", !model->blends}};

@@ -14,7 +14,21 @@ in vec4 castle_MultiTexCoord4;
 in vec4 castle_MultiTexCoord5;
 in vec4 castle_MultiTexCoord6;
 in vec4 castle_MultiTexCoord7;
+/* Made from the bounding box, whatever the geometry has: all of it, and its two longest sides. */
+in vec4 plugray_BoxCoord;
+in vec4 plugray_PlaneCoord;
+in float castle_FogCoord;
 #endif
+
+/* Texture coordinates, generated and transformed: those of the textures of the Appearance in their order. */
+varying vec4 castle_TexCoord0;
+varying vec4 castle_TexCoord1;
+varying vec4 castle_TexCoord2;
+varying vec4 castle_TexCoord3;
+varying vec4 castle_TexCoord4;
+varying vec4 castle_TexCoord5;
+varying vec4 castle_TexCoord6;
+varying vec4 castle_TexCoord7;
 
 /* Of the shape: object space to eye space, normals too, and eye space to clip space. */
 uniform mat4 castle_ModelViewMatrix;

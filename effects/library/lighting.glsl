@@ -23,6 +23,12 @@ vec3 phong_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, v
     return reflected;
 }
 
+/* What a light calls: how the material meets it. A material's effect that knows better has a function of
+ * this name, and a MaterialInfo, of its own. */
+vec3 material_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
+    return phong_reflection(material, vertex_eye, normal_eye, light_dir);
+}
+
 /* 17.2.2: 1 / max(c1 + c2 d + c3 d^2, 1), and nothing beyond the radius; `to_light` is in the
  * light's own coordinates, where its radius and attenuation are given. */
 float light_attenuation(vec3 to_light, vec3 attenuation, float radius) {

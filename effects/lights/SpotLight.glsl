@@ -1,16 +1,22 @@
 /* ISO/IEC 19775-1 V4 17.4, SpotLight, and 17.2.2. `nodeToEye` carries the light's own coordinates
- * to eye space. A zero normal gets ambient light only. */
+ * to eye space. A zero normal gets ambient light only. What meets the light, and how, is the
+ * material's: material_reflection. */
 
 uniform mat4 nodeToEye = mat4(1.0);
+uniform mat4 eyeToNode = mat4(1.0);
 uniform vec3 location = vec3(0.0);
 uniform vec3 direction = vec3(0.0, 0.0, -1.0);
 uniform float beamWidth = 0.589049;
-uniform float cutOffAngle = 0.785398;
+uniform float cutOffAngle = 1.570796;
 uniform vec3 color = vec3(1.0);
 uniform float intensity = 1.0;
 uniform float ambientIntensity = 0.0;
 uniform vec3 attenuation = vec3(1.0, 0.0, 0.0);
 uniform float radius = 100.0;
+
+/* For effects on this light: where it stands, and where it shines, length 1. */
+vec3 light_location_eye = (nodeToEye * vec4(location, 1.0)).xyz;
+vec3 light_direction_eye = normalize(mat3(nodeToEye) * direction);
 
 /* spot_i: 1 within the beam, 0 from the cut-off angle on, linear in the angle between them. */
 float spot_factor(vec3 from_light) {
@@ -29,10 +35,10 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
     vec3 to_light = (nodeToEye * vec4(location, 1.0)).xyz - vertex_eye.xyz / vertex_eye.w;
     vec3 light_dir = unit_or_zero(to_light);
     float scale = 1.0;
-    /* PLUG: light_scale (scale, normal_eye, light_dir) */
+    /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     scale *= spot_factor(-light_dir) *
-             light_attenuation(inverse(mat3(nodeToEye)) * to_light, attenuation, radius);
+             light_attenuation(mat3(eyeToNode) * to_light, attenuation, radius);
     lit.rgb += scale * color *
                (ambientIntensity * material.ambient +
-                intensity * phong_reflection(material, vertex_eye, normal_eye, light_dir));
+                intensity * material_reflection(material, vertex_eye, normal_eye, light_dir));
 }

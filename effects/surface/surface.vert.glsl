@@ -6,38 +6,30 @@
 
 out vec4 castle_vertex_eye;
 out vec3 castle_normal_eye;
-out vec4 vertex_color;
 
 void main() {
     vec4 vertex_object = castle_Vertex;
 #if PLUG_USED(vertex_object_space_change) || PLUG_USED(vertex_object_space) ||                      \
-    PLUG_USED(vertex_eye_space) || PLUG_USED(vertex_eye_space_extended) ||                          \
-    PLUG_USED(fragment_eye_space) || PLUG_USED(main_texture_apply) || PLUG_USED(texture_apply) ||   \
-    PLUG_USED(add_light) || PLUG_USED(lighting_apply) || PLUG_USED(fog_apply)
+    PLUG_USED(vertex_eye_space) || PLUG_USED(vertex_eye_space_extended) || READS(castle_normal_eye)
     vec3 normal_object = castle_Normal;
 #endif
     /* PLUG: vertex_object_space_change (vertex_object, normal_object) */
     /* PLUG: vertex_object_space (vertex_object, normal_object) */
 
     vec4 vertex_eye = castle_ModelViewMatrix * vertex_object;
-#if PLUG_USED(vertex_eye_space) || PLUG_USED(vertex_eye_space_extended) ||                          \
-    PLUG_USED(fragment_eye_space) || PLUG_USED(main_texture_apply) || PLUG_USED(texture_apply) ||   \
-    PLUG_USED(add_light) || PLUG_USED(lighting_apply) || PLUG_USED(fog_apply)
+#if PLUG_USED(vertex_eye_space) || PLUG_USED(vertex_eye_space_extended) || READS(castle_normal_eye)
     vec3 normal_eye = unit_or_zero(castle_NormalMatrix * normal_object);
 #endif
     /* PLUG: vertex_attributes () */
+    /* PLUG: vertex_place (vertex_eye) */
     /* PLUG: vertex_eye_space (vertex_eye, normal_eye) */
     /* PLUG: vertex_eye_space_extended (vertex_eye, normal_eye, normal_object) */
 
-#if PLUG_USED(fragment_eye_space) || PLUG_USED(add_light) || PLUG_USED(lighting_apply)
+#if READS(castle_vertex_eye)
     castle_vertex_eye = vertex_eye;
 #endif
-#if PLUG_USED(fragment_eye_space) || PLUG_USED(main_texture_apply) || PLUG_USED(texture_apply) ||   \
-    PLUG_USED(add_light) || PLUG_USED(lighting_apply) || PLUG_USED(fog_apply)
+#if READS(castle_normal_eye)
     castle_normal_eye = normal_eye;
-#endif
-#if HAS_COLORS
-    vertex_color = castle_ColorPerVertex;
 #endif
     gl_Position = castle_ProjectionMatrix * vertex_eye;
 }

@@ -48,11 +48,10 @@ static size_t read_files(linked *l, const char *path, const plr_source **list) {
     static const struct {
         const char *ending;
         plr_stage stage;
-    } endings[] = {
-        {".glsl", PLR_FRAGMENT},
-        {".vert.glsl", PLR_VERTEX},
-        {".geom.glsl", PLR_GEOMETRY},
-        {".frag.glsl", PLR_FRAGMENT}};
+    } endings[] = {{".glsl", PLR_FRAGMENT},
+                   {".vert.glsl", PLR_VERTEX},
+                   {".geom.glsl", PLR_GEOMETRY},
+                   {".frag.glsl", PLR_FRAGMENT}};
     const char *name, *text;
     size_t count = 0, length = strlen(path);
     for (size_t i = 0; (name = plr_effects_file(i, &text, NULL)); i++)
@@ -220,10 +219,16 @@ static const char short_texture_plug[] =
     " texture_color.rg = tex_coord.st; }\n";
 
 #define DEFINES(list) .defines = list, .define_count = sizeof list / sizeof *list
-static const plr_define plain[] = {
-    {"HAS_COLORS", "0"}, {"HAS_NORMALS", "1"}, {"TWO_SIDED", "0"}, {"OPAQUE", "1"}};
-static const plr_define colored[] = {
-    {"HAS_COLORS", "1"}, {"HAS_NORMALS", "1"}, {"TWO_SIDED", "1"}, {"OPAQUE", "0"}};
+static const plr_define plain[] = {{"HAS_COLORS", "0"},
+                                   {"COLORS_MODULATE", "0"},
+                                   {"HAS_NORMALS", "1"},
+                                   {"TWO_SIDED", "0"},
+                                   {"OPAQUE", "1"}};
+static const plr_define colored[] = {{"HAS_COLORS", "1"},
+                                     {"COLORS_MODULATE", "0"},
+                                     {"HAS_NORMALS", "1"},
+                                     {"TWO_SIDED", "1"},
+                                     {"OPAQUE", "0"}};
 static const plr_define one_volume[] = {
     {"VOLUME_COUNT", "1"}, {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"}, {"HAS_CUT", "0"}};
 static const plr_define two_volumes[] = {
@@ -236,6 +241,10 @@ static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
                                      {"transferFunction_DIMENSIONS", "2"}};
 static const plr_define lit_style[] = {{"lighting", "1"}, {"HAS_material", "1"}};
 static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}};
+static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
+static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
+static const plr_define given_fog[] = {
+    {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}};
 static const plr_define with_ground[] = {{"HAS_GROUND", "1"}};
 static const plr_define no_ground[] = {{"HAS_GROUND", "0"}};
 
@@ -248,7 +257,7 @@ static const recipe recipes[] = {
      .absent = "ormal castle_vertex_eye vertex_color Color0 MaterialInfo PLUG"},
     {"unlit, coloured",
      "surface/surface",
-     {{.path = "surface/UnlitMaterial"}},
+     {{.path = "surface/UnlitMaterial"}, {.path = "surface/Color", DEFINES(opaque_colors)}},
      DEFINES(colored),
      .present = "vertex_color castle_ColorPerVertex transparency",
      .absent = "ormal emissiveColor"},
@@ -290,6 +299,34 @@ static const recipe recipes[] = {
      DEFINES(colored),
      .present = "gl_FrontFacing attenuation cutOffAngle",
      .absent = "diffuseColor"},
+    {"physical material and light, two-sided",
+     "surface/surface",
+     {{.path = "surface/PhysicalMaterial"},
+      {.path = "surface/Texture2D"},
+      {.path = "surface/back/PhysicalMaterial"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "output/ToneMapping", DEFINES(uncharted)},
+      {.path = "output/Gamma"}},
+     DEFINES(plain),
+     .present = "metallic gl_FrontFacing roughness",
+     .absent = "shininess phong"},
+    {"two-sided materials",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "surface/back/Material"},
+      {.path = "surface/back/TwoSidedMaterial"},
+      {.path = "lights/PointLight"}},
+     DEFINES(plain),
+     .present = "backShininess"},
+    {"unlit, two-sided, in fog, cut",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "surface/back/UnlitMaterial"},
+      {.path = "fog/Fog", DEFINES(given_fog)},
+      {.path = "fog/ClipPlane"}},
+     DEFINES(plain),
+     .present = "castle_FogCoord discard exp",
+     .absent = "volumetric"},
     {"every plug of surfaces",
      "surface/surface",
      {{.path = "surface/Material"},

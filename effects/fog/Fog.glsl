@@ -1,0 +1,47 @@
+/* Fog and LocalFog. ISO/IEC 19775-1 V4 24.2: C = I_F C_F + (1 - I_F) C; the interpolant falls
+ * from 1 at the viewer to 0 at visibilityRange, which is a length in the fog's own coordinates, as
+ * is the distance from the viewer. FogCoordinate gives that distance at the vertices. With the
+ * extension `volumetric` it is the depth below a plane instead, wherever the viewer is: measured
+ * along volumetricDirection, from volumetricVisibilityStart on. The extension visibilityStart keeps
+ * fog away from what is nearer. */
+
+uniform mat4 eyeToNode = mat4(1.0);
+uniform vec3 color = vec3(1.0);
+uniform float visibilityRange = 0.0;
+uniform float visibilityStart = 0.0;
+#if volumetric
+uniform vec3 volumetricDirection = vec3(0.0, -1.0, 0.0);
+uniform float volumetricVisibilityStart = 0.0;
+#endif
+
+#if HAS_FOG_COORD && !volumetric
+in float fog_coordinate;
+#endif
+
+/* How much of the surface is seen through so much fog. */
+float fog_interpolant(float depth) {
+    if (depth >= visibilityRange)
+        return 0.0;
+    depth = max(depth - visibilityStart, 0.0);
+    float range = visibilityRange - visibilityStart;
+#if defined(fogType_EXPONENTIAL)
+    return exp(-depth / (range - depth));
+#else
+    return 1.0 - depth / range;
+#endif
+}
+
+float fog_depth() {
+#if volumetric
+    vec3 place = (eyeToNode * surface_vertex_eye).xyz;
+    return max(dot(place, unit_or_zero(volumetricDirection)) - volumetricVisibilityStart, 0.0);
+#elif HAS_FOG_COORD
+    return max(fog_coordinate, 0.0);
+#else
+    return length(mat3(eyeToNode) * surface_vertex_eye.xyz);
+#endif
+}
+
+void PLUG_fog_apply(inout vec4 fragment_color, const in vec3 normal_eye) {
+    fragment_color.rgb = mix(color, fragment_color.rgb, fog_interpolant(fog_depth()));
+}

@@ -1,0 +1,13 @@
+/* The way from linear light to the picture, for materials whose colours are linear: textures hold
+ * colours of displays, which answer to a number by its power of 2.2, the gamma of ITU-R BT.709's
+ * and IEC 61966-2-1's curves; light is added in linear colours, and the result goes back. */
+
+const float display_gamma = 2.2;
+
+void PLUG_texture_color(inout vec4 texture_color, const in vec4 tex_coord) {
+    texture_color.rgb = pow(max(texture_color.rgb, 0.0), vec3(display_gamma));
+}
+
+void PLUG_surface_output(inout vec4 fragment_color) {
+    fragment_color.rgb = pow(max(fragment_color.rgb, 0.0), vec3(1.0 / display_gamma));
+}

@@ -1,0 +1,85 @@
+/* The metallic-roughness material. ISO/IEC 19775-1 V4 17.2.2.7 takes it from glTF 2.0, whose appendix B
+ * has the formulas: a diffuse base under a rough dielectric interface, mixed with a rough metal. All
+ * light is direct: a light brings no ambient part (17.2.2.7 has none). */
+
+#if !HAS_COLORS || COLORS_MODULATE
+uniform vec3 baseColor = vec3(1.0);
+#endif
+uniform vec3 emissiveColor = vec3(0.0);
+uniform float transparency = 0.0;
+
+#if PLUG_USED(add_light)
+uniform float metallic = 1.0;
+uniform float roughness = 1.0;
+
+/* What a light needs to know of this material; hides the library's own. */
+struct MaterialInfo {
+    vec3 ambient;  /* 0 */
+    vec3 diffuse;  /* c_diff */
+    vec3 specular; /* f0 */
+    float alpha;   /* the square of the roughness */
+};
+
+MaterialInfo material;
+vec2 metal_rough;
+
+/* glTF 2.0 B.3: the reflected part of the light from `light_dir`, times the cosine. */
+vec3 material_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
+    float n_dot_l = dot(normal_eye, light_dir);
+    if (n_dot_l <= 0.0)
+        return vec3(0.0);
+    vec3 view = direction_to_viewer(vertex_eye);
+    vec3 between = unit_or_zero(light_dir + view);
+    float n_dot_v = abs(dot(normal_eye, view)), n_dot_h = max(dot(normal_eye, between), 0.0);
+    float v_dot_h = max(dot(view, between), 0.0);
+    float a2 = material.alpha * material.alpha;
+
+    /* B.3.2: D, Trowbridge-Reitz/GGX, and V = G / (4 |N.L| |N.V|), Smith */
+    float spread = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
+    float d = a2 / (3.14159265358979 * spread * spread);
+    float v = 1.0 / ((n_dot_l + sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l)) *
+                     (n_dot_v + sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v)));
+    /* B.3.4, F: Schlick's approximation */
+    float x = 1.0 - v_dot_h, x2 = x * x;
+    vec3 f = material.specular + (1.0 - material.specular) * (x2 * x2 * x);
+    /* B.3.5 */
+    return n_dot_l * ((1.0 - f) * material.diffuse / 3.14159265358979 + f * (v * d));
+}
+#endif
+
+void PLUG_surface_color(inout vec4 fragment_color) {
+#if !HAS_COLORS || COLORS_MODULATE
+    vec3 color = baseColor;
+#else
+    vec3 color = vec3(1.0);
+#endif
+    float clear = transparency;
+    /* PLUG: material_back_color (color, clear) */
+    fragment_color = vec4(color, 1.0 - clear);
+#if PLUG_USED(add_light)
+    metal_rough = vec2(metallic, roughness);
+    /* PLUG: material_back_shine (metal_rough) */
+    /* PLUG: material_metallic_roughness (metal_rough.x, metal_rough.y) */
+#endif
+}
+
+void PLUG_surface_light(inout vec4 fragment_color) {
+    vec4 lit = vec4(0.0, 0.0, 0.0, fragment_color.a);
+#if PLUG_USED(add_light)
+    float metal = clamp(metal_rough.x, 0.0, 1.0);
+    float rough = clamp(metal_rough.y, 0.0, 1.0);
+    material.ambient = vec3(0.0);
+    material.diffuse = fragment_color.rgb * (1.0 - metal);
+    material.specular = mix(vec3(0.04), fragment_color.rgb, metal);
+    material.alpha = max(rough * rough, 0.001); /* a perfect mirror shows no point of light */
+#endif
+
+    /* PLUG: add_light (lit, surface_vertex_eye, surface_normal_eye, material) (lit, surface_vertex_eye, surface_normal_eye, material, direction_to_viewer(surface_vertex_eye)) */
+    /* PLUG: material_occlusion (lit) */
+
+    vec3 emissive = emissiveColor;
+    /* PLUG: material_back_emissive (emissive) */
+    /* PLUG: material_emissive (emissive) */
+    lit.rgb += emissive;
+    fragment_color = lit;
+}
