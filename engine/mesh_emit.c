@@ -11,7 +11,7 @@ typedef struct vertices {
     plr_polygons *polygons;
     plr_corner *items;
     uint32_t count;
-    uint32_t *table; /* vertex plus 1; 0: empty */
+    uint32_t *table; /* vertex plus 1; 0: empty. NULL: all corners stay apart */
     size_t mask;
 } vertices;
 
@@ -26,6 +26,10 @@ static uint64_t mix(uint64_t hash, uint64_t value) {
 }
 
 static uint32_t vertex_of(vertices *v, const plr_corner *corner) {
+    if (!v->table) { /* each corner of a line has a place of its own along it */
+        v->count = (uint32_t)v->polygons->corners.count;
+        return (uint32_t)(corner - v->items);
+    }
     uint64_t hash =
         mix(mix((uint64_t)corner->coord << 32 | corner->normal, corner->color), corner->tex);
     size_t slot = (size_t)(hash >> 8) & v->mask;
@@ -135,6 +139,35 @@ static void fill_tex_coords(plr_polygons *p, const vertices *v, plr_mesh *mesh) 
             mesh->tex_coords[unit] = default_tex_coords(p, mesh);
 }
 
+/* ISO/IEC 19775-1 24.4.4: one depth a point; where there are too few, the last one holds on. */
+static void fill_fog_coords(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
+    static const float missing[1] = {0};
+    uint32_t count;
+    const float *depths =
+        plr_mesh_values(p->arena, plr_node_child(p->node, "fogCoord"), "depth", 1, missing, &count);
+    if (!count)
+        return;
+    mesh->fog_coords = plr_mesh_array(p->arena, v->count, sizeof *mesh->fog_coords);
+    for (size_t i = 0; i < v->count; i++)
+        mesh->fog_coords[i] = depths[v->items[i].coord < count ? v->items[i].coord : count - 1];
+}
+
+/* Lines have their corners as vertices, in order. */
+static void fill_line_distances(plr_polygons *p, plr_mesh *mesh) {
+    mesh->line_distances = plr_mesh_array(p->arena, mesh->vertex_count, sizeof(float));
+    for (size_t f = 0; f < p->faces.count; f++) {
+        const plr_face *face = &p->faces.items[f];
+        double distance = 0;
+        for (size_t i = face->first + 1; i < (size_t)face->first + face->count; i++) {
+            const float *a = mesh->positions + 3 * i;
+            double x = (double)a[0] - (double)a[-3], y = (double)a[1] - (double)a[-2],
+                   z = (double)a[2] - (double)a[-1];
+            distance += sqrt(x * x + y * y + z * z);
+            mesh->line_distances[i] = (float)distance;
+        }
+    }
+}
+
 static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
     mesh->vertex_count = v->count;
     mesh->positions = gather(p, v, p->points, 3, offsetof(plr_corner, coord));
@@ -145,6 +178,9 @@ static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
     plr_mesh_find_bounds(mesh);
     if (p->kind == PLR_MESH_TRIANGLES)
         fill_tex_coords(p, v, mesh);
+    if (p->kind == PLR_MESH_LINES)
+        fill_line_distances(p, mesh);
+    fill_fog_coords(p, v, mesh);
     uint32_t *coords = PLR_NEW_ARRAY(p->arena, v->count, uint32_t);
     for (uint32_t i = 0; i < v->count; i++)
         coords[i] = v->items[i].coord;
@@ -160,13 +196,15 @@ bool plr_polygons_emit(plr_polygons *p, plr_mesh *mesh) {
     mesh->kind = p->kind;
     mesh->index_count = (uint32_t)indices;
     mesh->indices = plr_mesh_array(p->arena, indices, sizeof *mesh->indices);
-    size_t size = 16;
-    while (size < p->corners.count * 2)
-        size *= 2;
-    vertices v = {.polygons = p,
-                  .items = PLR_NEW_ARRAY(p->arena, p->corners.count, plr_corner),
-                  .table = PLR_NEW_ARRAY(p->arena, size, uint32_t),
-                  .mask = size - 1};
+    vertices v = {.polygons = p, .items = p->corners.items};
+    if (p->kind != PLR_MESH_LINES) {
+        size_t size = 16;
+        while (size < p->corners.count * 2)
+            size *= 2;
+        v.items = PLR_NEW_ARRAY(p->arena, p->corners.count, plr_corner);
+        v.table = PLR_NEW_ARRAY(p->arena, size, uint32_t);
+        v.mask = size - 1;
+    }
     make_indices(&v, mesh);
     fill_mesh(p, &v, mesh);
     return true;

@@ -54,8 +54,8 @@ bool plr_polygons_read(plr_polygons *polygons);
  * NULL and count 0 where the node has none. */
 const float *plr_mesh_values(plr_arena *arena, const plr_node *property, const char *field,
                              int components, const float *missing, uint32_t *count);
-/* Units of texture coordinates of a texCoord node; returns how many values every unit has that has
- * values: as many as the shortest. */
+/* Reads the units of a texCoord node; returns how many values all units have that have any: as many
+ * as the shortest. */
 uint32_t plr_polygons_tex_coords(plr_polygons *polygons, const plr_node *tex_coord);
 void plr_mesh_attributes(plr_polygons *polygons, plr_mesh *mesh, const uint32_t *coords);
 

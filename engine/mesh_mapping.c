@@ -26,10 +26,13 @@ const float *plr_mesh_tex_coords(const plr_mesh *mesh, unsigned unit) {
     return mesh->tex_coords[unit];
 }
 
-/* One coordinate of all vertices as a function of one axis: from 0 at `start` by `scale`. */
+/* One coordinate of all vertices as a function of one axis: from 0 (never -0) at `start` by
+ * `scale`.
+ */
 static void map_axis(const plr_mesh *mesh, float *coords, int axis, double start, double scale) {
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        coords[4 * i] = (float)(((double)mesh->positions[3 * i + (size_t)axis] - start) * scale);
+        coords[4 * i] =
+            (float)(((double)mesh->positions[3 * i + (size_t)axis] - start) * scale + 0.0);
 }
 
 static float *new_coords(const plr_mesh *mesh) {

@@ -263,32 +263,41 @@ static void read_properties(reader *r) {
     b[COLOR].per_face = !bool_field(p->node, "colorPerVertex", true);
 }
 
-/* The points of an ElevationGrid, with the default mapping: s along x, t along z. */
-static void make_grid_points(reader *r, uint32_t columns, uint32_t rows) {
+/* The default mapping of an ElevationGrid, s along x and t along z, for all units that have no list
+ * of their own. */
+static void map_grid(reader *r, size_t columns, size_t rows) {
+    plr_polygons *p = r->polygons;
+    float *tex = NULL;
+    for (unsigned unit = 0; unit < (p->tex_units ? p->tex_units : 1); unit++) {
+        if (p->tex_coords[unit])
+            continue;
+        if (!tex)
+            tex = plr_arena_array(p->arena, columns * rows, 4 * sizeof *tex);
+        p->tex_coords[unit] = tex;
+    }
+    for (size_t i = 0; tex && i < columns * rows; i++) {
+        tex[4 * i] = (float)((double)(i % columns) / (double)(columns - 1));
+        tex[4 * i + 1] = (float)((double)(i / columns) / (double)(rows - 1));
+        tex[4 * i + 3] = 1;
+    }
+    if (tex && !r->bindings[TEX].count)
+        r->bindings[TEX].count = (uint32_t)(columns * rows);
+}
+
+static void make_grid_points(reader *r, size_t columns, size_t rows) {
     plr_polygons *p = r->polygons;
     const float *heights = plr_node_field(p->node, "height")->value.floats;
     double spacing_x = plr_node_number(p->node, "xSpacing");
     double spacing_z = plr_node_number(p->node, "zSpacing");
-    size_t count = (size_t)columns * rows;
-    float *points = plr_arena_array(p->arena, count, 3 * sizeof *points);
-    float *tex = p->tex_given ? NULL : plr_arena_array(p->arena, count, 4 * sizeof *tex);
-    for (size_t i = 0; i < count; i++) {
-        size_t x = i % columns, z = i / columns;
-        points[3 * i] = (float)((double)x * spacing_x);
+    float *points = plr_arena_array(p->arena, columns * rows, 3 * sizeof *points);
+    for (size_t i = 0; i < columns * rows; i++) {
+        points[3 * i] = (float)((double)(i % columns) * spacing_x);
         points[3 * i + 1] = heights[i];
-        points[3 * i + 2] = (float)((double)z * spacing_z);
-        if (tex) {
-            tex[4 * i] = (float)((double)x / (columns - 1));
-            tex[4 * i + 1] = (float)((double)z / (rows - 1));
-            tex[4 * i + 3] = 1;
-        }
+        points[3 * i + 2] = (float)((double)(i / columns) * spacing_z);
     }
     p->points = points;
-    p->point_count = (uint32_t)count;
-    if (tex) {
-        p->tex_coords[0] = tex;
-        r->bindings[TEX].count = (uint32_t)count;
-    }
+    p->point_count = (uint32_t)(columns * rows);
+    map_grid(r, columns, rows);
 }
 
 static bool read_grid(reader *r) {
@@ -304,7 +313,7 @@ static bool read_grid(reader *r) {
                       (long long)rows, heights->count);
         return false;
     }
-    make_grid_points(r, (uint32_t)columns, (uint32_t)rows);
+    make_grid_points(r, (size_t)columns, (size_t)rows);
     for (size_t z = 0; z + 1 < (size_t)rows; z++)
         for (size_t x = 0; x + 1 < (size_t)columns; x++) {
             /* counterclockwise from above */

@@ -117,8 +117,15 @@ static bool holds_corner(clip *c, const ring *a, const ring *b, const ring *d) {
     return false;
 }
 
+/* A point twice in a row, or a way there and back: cut at once, it covers nothing. */
+static bool is_degenerate(const ring *a, const ring *b, const ring *d) {
+    return same_place(a, b) || same_place(b, d) || same_place(a, d);
+}
+
 static bool is_ear(clip *c, uint32_t i) {
     ring *at = &c->ring[i];
+    if (is_degenerate(&c->ring[at->previous], at, &c->ring[at->next]))
+        return true;
     if (at->inward || !c->clipper->budget)
         return false;
     c->clipper->budget--;

@@ -81,11 +81,13 @@ static void add_attribute(plr_polygons *polygons, plr_mesh *mesh, const plr_node
                       "a vertex attribute needs a name and 1 to 4 components");
         return;
     }
-    size_t numbers = field->count * (size_t)plr_type_components(field->type);
-    if (numbers / (size_t)components < polygons->point_count) {
+    size_t numbers = field->count * (size_t)plr_type_components(field->type), needed = 0;
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        needed = coords[i] >= needed ? (size_t)coords[i] + 1 : needed;
+    if (numbers / (size_t)components < needed) {
         plr_diags_add(polygons->diags, PLR_CODE_BAD_GEOMETRY, field->place,
-                      "the vertex attribute '%s' has %zu values for %u points", name,
-                      numbers / (size_t)components, polygons->point_count);
+                      "the vertex attribute '%s' has %zu values for %zu points", name,
+                      numbers / (size_t)components, needed);
         return;
     }
     plr_mesh_attribute *attribute = &mesh->attributes[mesh->attribute_count++];

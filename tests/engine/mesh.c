@@ -259,6 +259,165 @@ static void test_triangle_nodes(void) {
     finish(&f);
 }
 
+/* Units of MultiTextureCoordinate: lists of their own, generated ones, and none. */
+static void test_texture_units(void) {
+    fixture f =
+        build("IndexedTriangleSet { index [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 4 0 0, 0 "
+              "2 0 ] } texCoord MultiTextureCoordinate { texCoord [ TextureCoordinate { point "
+              "[ .1 .2, 0 0, 0 0 ] } TextureCoordinateGenerator { } TextureCoordinate3D { "
+              "point [ 1 2 3, 0 0 0, 0 0 0 ] } ] } }");
+    CHECK(f.built && f.mesh.tex_coords_given);
+    const float *unit = plr_mesh_tex_coords(&f.mesh, 0);
+    CHECK(unit && unit[0] == 0.1f && unit[1] == 0.2f && unit[3] == 1);
+    unit = plr_mesh_tex_coords(&f.mesh, 1); /* by the bounding box until it is generated */
+    CHECK(unit && unit[4] == 1 && unit[9] == 0.5f);
+    unit = plr_mesh_tex_coords(&f.mesh, 2);
+    CHECK(unit && unit[2] == 3);
+    CHECK(f.built && !f.mesh.tex_coords[3]);
+    CHECK(plr_mesh_tex_coords(&f.mesh, 3) == unit); /* the last is replicated */
+    CHECK(plr_mesh_tex_coords(&f.mesh, 400) == unit);
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 ] texCoordIndex [ 2 1 0 ] coord Coordinate { point "
+        "[ 0 0 0, 4 0 0, 0 2 0 ] } texCoord MultiTextureCoordinate { texCoord [ "
+        "TextureCoordinate { point [ 1 0, 2 0, 3 0 ] } TextureCoordinate { point [ 4 0, 5 0, 6 "
+        "0 ] } ] } }");
+    CHECK(f.built && f.mesh.tex_coords[0][0] == 3 && f.mesh.tex_coords[1][0] == 6);
+    finish(&f);
+    f = build(
+        "IndexedTriangleSet { index [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 4 0 0, 0 2 0 ] } "
+        "}");
+    CHECK(f.built && !f.mesh.tex_coords_given && f.mesh.tex_coords[0][4] == 1);
+    finish(&f);
+    char text[2000] = "TriangleSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } texCoord "
+                      "MultiTextureCoordinate { texCoord [";
+    for (int i = 0; i < 20; i++) /* more than there are units */
+        strcat(text, " TextureCoordinate { point [ 1 0, 2 0, 3 0 ] }");
+    strcat(text, " ] } }");
+    f = build(text);
+    CHECK(f.built && f.mesh.tex_coords[PLR_MESH_TEX_UNITS - 1]);
+    finish(&f);
+    f = build("TriangleSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } texCoord "
+              "MultiTextureCoordinate { texCoord [ TextureCoordinate { point [ 1 0, 2 0, 3 0 ] } "
+              "TextureCoordinate { point [ 1 0 ] } ] } }");
+    CHECK(!f.built);
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+}
+
+static void test_box_mapping(void) {
+    fixture f =
+        build("IndexedFaceSet { coordIndex [ 0 1 2 ] coord Coordinate { point [ 1 2 3, 5 2 3, 1 "
+              "12 -5 ] } }");
+    const float *box = f.built ? plr_mesh_box_coords(&f.mesh) : NULL;
+    static const float expected[12] = {0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 1, 1};
+    CHECK(box && memcmp(box, expected, sizeof expected) == 0);
+    CHECK(f.built && plr_mesh_box_coords(&f.mesh) == box);
+    const float *plane = f.built ? plr_mesh_plane_coords(&f.mesh) : NULL;
+    CHECK(plane && plane[8] == 1 && plane[9] == 0); /* s along y, t along z: 8 of 10 */
+    CHECK(plane && plane[0] == 0 && plane[1] == 0.8f && plane[3] == 1);
+    finish(&f);
+    f = build("Sphere { radius 3 }");
+    box = f.built ? plr_mesh_box_coords(&f.mesh) : NULL;
+    double worst = 0;
+    for (size_t i = 0; box && i < f.mesh.vertex_count; i++)
+        for (size_t axis = 0; axis < 3; axis++)
+            worst =
+                fmax(worst, fabs((double)box[4 * i + axis] - 0.5 -
+                                 (double)f.mesh.positions[3 * i + axis] / (axis == 2 ? -6 : 6)));
+    CHECK(box != NULL);
+    CHECK_NEAR(worst, 0, 1e-6);
+    finish(&f);
+}
+
+static void test_fog_coordinates(void) {
+    fixture f =
+        build("IndexedFaceSet { coordIndex [ 2 0 1 3 ] fogCoord FogCoordinate { depth [ 5 6 7 ] "
+              "} coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0 ] } }");
+    CHECK(f.built && f.mesh.fog_coords);
+    static const float expected[4] = {7, 5, 6, 7}; /* the last holds on */
+    for (size_t i = 0; f.built && i < 6; i++) {
+        uint32_t v = f.mesh.indices[i];
+        CHECK(v < 4 && f.mesh.fog_coords[v] == expected[v]);
+    }
+    finish(&f);
+    f = build("PointSet { coord Coordinate { point [ 0 0 0 ] } }");
+    CHECK(f.built && !f.mesh.fog_coords);
+    finish(&f);
+}
+
+static void test_line_distances(void) {
+    /* a closed polyline, and one that shares its points */
+    fixture f =
+        build("IndexedLineSet { coordIndex [ 0 1 2 0 -1 2 1 ] coord Coordinate { point [ 0 0 0, "
+              "3 0 0, 3 4 0 ] } attrib FloatVertexAttribute { name \"w\" numComponents 1 value "
+              "[ 10 11 12 ] } }");
+    static const float expected[6] = {0, 3, 7, 12, 0, 4};
+    CHECK(f.built && f.mesh.vertex_count == 6 && f.mesh.line_distances &&
+          memcmp(f.mesh.line_distances, expected, sizeof expected) == 0);
+    static const uint32_t indices[8] = {0, 1, 1, 2, 2, 3, 4, 5};
+    CHECK(f.built && f.mesh.index_count == 8 &&
+          memcmp(f.mesh.indices, indices, sizeof indices) == 0);
+    CHECK(f.built && f.mesh.attribute_count == 1 && f.mesh.attributes[0].values[4] == 12);
+    finish(&f);
+    f = build("TriangleSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } }");
+    CHECK(f.built && !f.mesh.line_distances);
+    finish(&f);
+}
+
+/* Attributes go with the points that are used, on every node that takes them. */
+static void test_attributes_everywhere(void) {
+    static const char *const nodes[] = {
+        "IndexedFaceSet { coordIndex [ 0 1 2 3 ]",
+        "IndexedTriangleSet { index [ 0 1 3 ]",
+        "IndexedTriangleFanSet { index [ 0 1 2 3 ]",
+        "IndexedTriangleStripSet { index [ 0 1 2 3 ]",
+        "IndexedQuadSet { index [ 0 1 2 3 ]",
+        "TriangleSet {",
+        "TriangleFanSet { fanCount 3",
+        "TriangleStripSet { stripCount 4",
+        "QuadSet {",
+        "IndexedLineSet { coordIndex [ 0 1 2 3 ]",
+        "LineSet { vertexCount 4",
+        "PointSet {",
+        "ElevationGrid { xDimension 2 zDimension 2 height [ 0 0 0 0 ]",
+    };
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "%s %s attrib [ FloatVertexAttribute { name \"a\" numComponents 1 value [ 0 1 2 3 ] "
+            "} Matrix4VertexAttribute { name \"m\" value [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1, 1 0 "
+            "0 0 0 1 0 0 0 0 1 0 0 0 0 1, 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1, 1 0 0 7 0 1 0 8 0 0 1 "
+            "9 0 0 0 1 ] } ] }",
+            nodes[i],
+            strncmp(nodes[i], "Elev", 4) == 0
+                ? ""
+                : "coord Coordinate { point [ 0 0 0, 1 0 0, 1 0 1, 0 0 1 ] }");
+        fixture f = build(text);
+        bool found =
+            f.built && f.mesh.attribute_count == 2 && f.mesh.attributes[1].components == 16;
+        if (!found)
+            printf("# %s\n", text);
+        CHECK(found);
+        for (size_t v = 0; found && v < f.mesh.vertex_count; v++) {
+            const float *p = f.mesh.positions + 3 * v;
+            bool grid = strncmp(nodes[i], "Elev", 4) == 0;
+            float expected = p[2] > 0 ? (grid == (p[0] > 0) ? 3 : 2) : p[0];
+            found = f.mesh.attributes[0].values[v] == expected &&
+                    f.mesh.attributes[1].values[16 * v + 13] == (expected == 3 ? 8 : 0);
+        }
+        CHECK(found);
+        finish(&f);
+    }
+    fixture f =
+        build("IndexedTriangleSet { index [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 "
+              "0, 9 9 9 ] } attrib FloatVertexAttribute { name \"a\" numComponents 1 value [ 0 "
+              "1 2 ] } }");
+    CHECK(f.built && f.mesh.attribute_count == 1); /* point 3 is in nobody's use */
+    finish(&f);
+}
+
 static void test_lines_and_points(void) {
     fixture f =
         build("IndexedLineSet { coordIndex [ 0 1 2 -1 2 0 ] colorPerVertex FALSE color Color { "
@@ -296,6 +455,77 @@ static void test_elevation(void) {
     f = build("ElevationGrid { xDimension 2147483647 zDimension 2147483647 height [ 0 1 ] }");
     CHECK(!f.built);
     CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+}
+
+static void test_elevation_bindings(void) {
+    static const char *const grid =
+        "ElevationGrid { xDimension 3 zDimension 2 height [ 0 0 0 0 0 0 ]";
+    char text[500];
+    snprintf(text, sizeof text,
+             "%s colorPerVertex FALSE color Color { color [ 1 0 0, 0 1 0 ] } normalPerVertex FALSE "
+             "normal Normal { vector [ 0 1 0, 1 1 0 ] } }",
+             grid);
+    fixture f = build(text);
+    size_t red = 0, tilted = 0;
+    for (size_t i = 0; f.built && i < f.mesh.index_count; i++) {
+        const float *p = vertex(&f.mesh, i), *c = f.mesh.colors + 4 * f.mesh.indices[i];
+        red += c[0] == 1 && p[0] <= 1;
+        tilted += f.mesh.normals[3 * f.mesh.indices[i]] > 0.7f && p[0] >= 1;
+    }
+    CHECK_INT(red, 6);
+    CHECK_INT(tilted, 6);
+    finish(&f);
+    snprintf(
+        text, sizeof text,
+        "%s color ColorRGBA { color [ 0 0 0 0, 1 0 0 .1, 0 0 0 .2, 0 0 0 .3, 0 0 0 .4, 0 0 0 .5 ] "
+        "} texCoord MultiTextureCoordinate { texCoord [ TextureCoordinateGenerator { } "
+        "TextureCoordinate { point [ 0 0, 1 0, 2 0, 3 0, 4 0, 5 0 ] } ] } }",
+        grid);
+    f = build(text);
+    CHECK(f.built);
+    for (size_t i = 0; f.built && i < f.mesh.vertex_count; i++) {
+        const float *p = f.mesh.positions + 3 * i;
+        float number = p[0] + 3 * p[2];
+        CHECK_NEAR(f.mesh.colors[4 * i + 3], number * 0.1f, 1e-6);
+        CHECK_NEAR(f.mesh.tex_coords[0][4 * i], p[0] / 2, 0); /* the grid's own mapping */
+        CHECK_NEAR(f.mesh.tex_coords[1][4 * i], number, 0);
+    }
+    finish(&f);
+    /* a roof: smooth across its ridge only where the crease angle allows it */
+    for (int smooth = 0; smooth < 2; smooth++) {
+        snprintf(
+            text, sizeof text,
+            "ElevationGrid { xDimension 3 zDimension 2 height [ 0 1 0 0 1 0 ] creaseAngle %s }",
+            smooth ? "1.6" : "1.5");
+        f = build(text);
+        CHECK_INT(f.mesh.vertex_count, smooth ? 6 : 8);
+        finish(&f);
+    }
+}
+
+/* What modellers leave behind: points twice, faces without area, faces that are not flat. */
+static void test_unclean_faces(void) {
+    fixture f =
+        build("IndexedFaceSet { creaseAngle 1 convex FALSE coordIndex [ 0 1 1 2 3 0 -1 3 2 2 -1 "
+              "0 3 2 3 ] coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } }");
+    CHECK_NEAR(area_of(&f.mesh), 1, 1e-6);
+    bool along_z = f.built;
+    for (size_t i = 0; along_z && i < f.mesh.index_count; i++)
+        along_z = fabsf(f.mesh.normals[3 * (size_t)f.mesh.indices[i] + 2]) == 1;
+    CHECK(along_z);
+    finish(&f);
+    /* a saddle: cut along one diagonal; its normal is Newell's */
+    f = build(
+        "IndexedFaceSet { convex FALSE coordIndex [ 0 1 2 3 ] coord Coordinate { point [ 0 0 0, 1 "
+        "1 0, 1 0 -1, 0 1 -1 ] } }");
+    CHECK_INT(f.mesh.index_count, 6);
+    CHECK(f.built && isfinite(f.mesh.normals[0]));
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point [ 0 0.1 0, 0 0 1, 1 .1 "
+        "1, 1 0 0 ] } }");
+    CHECK_NEAR(f.mesh.normals[1], 1, 1e-6);
     finish(&f);
 }
 
@@ -353,8 +583,15 @@ int main(void) {
     test_bindings();
     test_matrix_attributes();
     test_triangle_nodes();
+    test_texture_units();
+    test_box_mapping();
+    test_fog_coordinates();
+    test_line_distances();
+    test_attributes_everywhere();
     test_lines_and_points();
     test_elevation();
+    test_elevation_bindings();
+    test_unclean_faces();
     test_hostile();
     return tap_done();
 }
