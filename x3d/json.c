@@ -65,12 +65,17 @@ static void yajl_forget(void *user, void *data) {
 
 /* ---- Events ---- */
 
-/* Where the token begins that yajl has just read: behind the one before and what may stand between
- * them. */
-static size_t token_start(parser *p) {
+/* Where the next token begins: behind the one before and what may stand between them. */
+static size_t next_start(const parser *p) {
     size_t at = p->last_end;
     while (at < p->length && p->text[at] && strchr(" \t\r\n,:", p->text[at]))
         at++;
+    return at;
+}
+
+/* Where the token begins that yajl has just read. */
+static size_t token_start(parser *p) {
+    size_t at = next_start(p);
     p->last_end = yajl_get_bytes_consumed(p->yajl);
     return at;
 }
@@ -181,14 +186,15 @@ static const yajl_callbacks events = {.yajl_null = on_null,
                                       .yajl_start_array = on_array,
                                       .yajl_end_array = on_end};
 
-/* yajl's own words, which end with a newline. */
-static void report_fault(parser *p) {
+/* yajl's own words, which end with a newline. It has passed the byte or the token at fault. */
+static void report_fault(parser *p, bool at_end) {
     if (p->fault->message)
         return;
     const char *text = (const char *)yajl_get_error(p->yajl, 0, NULL, 0);
-    size_t offset = yajl_get_bytes_consumed(p->yajl);
+    size_t passed = yajl_get_bytes_consumed(p->yajl);
+    bool lexical = strncmp(text, "lexical", 7) == 0 && passed && passed <= p->length;
     p->fault->message = plr_arena_copy(p->arena, text, strcspn(text, "\n"));
-    p->fault->offset = offset > p->length ? p->length : offset;
+    p->fault->offset = at_end ? p->length : lexical ? passed - 1 : next_start(p);
 }
 
 const x3d_json *x3d_json_parse(plr_arena *arena, const char *text, size_t length,
@@ -197,13 +203,9 @@ const x3d_json *x3d_json_parse(plr_arena *arena, const char *text, size_t length
     yajl_alloc_funcs memory = {yajl_new, yajl_resize, yajl_forget, &p};
     *fault = (x3d_json_fault){0};
     p.yajl = yajl_alloc(&events, &memory, &p);
-    if (yajl_parse(p.yajl, (const unsigned char *)text, length) != yajl_status_ok) {
-        report_fault(&p);
-        return NULL;
-    }
-    if (yajl_complete_parse(p.yajl) != yajl_status_ok || p.pending.count != 1) {
-        report_fault(&p);
-        fault->offset = length;
+    bool sound = yajl_parse(p.yajl, (const unsigned char *)text, length) == yajl_status_ok;
+    if (!sound || yajl_complete_parse(p.yajl) != yajl_status_ok) {
+        report_fault(&p, sound);
         return NULL;
     }
     return &p.pending.items[0];
