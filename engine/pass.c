@@ -8,7 +8,7 @@ static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light
                        type,
                        (plr_binding){.node = light->node,
                                      .to_world = light->to_world,
-                                     .in_eye_space = !light->node,
+                                     .in_eye_space = light->in_eye_space,
                                      .volume = volume},
                        attached, NULL, 0);
 }

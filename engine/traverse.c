@@ -1,12 +1,11 @@
 #include "engine/traverse.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-/* DEF and USE let a short file describe more nodes than any machine can draw. */
+/* DEF and USE let a short file describe more nodes than any machine can draw, and deeper ones. */
 enum {
-    MOST_VISITS = 100000
+    MOST_VISITS = 100000,
+    MOST_DEPTH = 4000
 };
 
 typedef struct walk {
@@ -14,7 +13,7 @@ typedef struct walk {
     plr_flat *flat;
     plr_diags *diags;
     plr_scope *scope;
-    size_t visits;
+    size_t visits, depth;
 } walk;
 
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix);
@@ -24,36 +23,13 @@ static bool is_a(const plr_node *node, const char *type) {
     return info && plr_node_info_is(info, type);
 }
 
-/* ISO/IEC 19775-1 V4 10.4.4: P' = T C R SR S -SR -C P. */
-static plr_matrix transform_matrix(const plr_node *node) {
-    float t[3] = {0}, c[3] = {0}, r[4] = {0, 0, 1, 0}, s[3] = {1, 1, 1}, o[4] = {0, 0, 1, 0};
-    plr_node_numbers(node, "translation", t, 3);
-    plr_node_numbers(node, "center", c, 3);
-    plr_node_numbers(node, "rotation", r, 4);
-    plr_node_numbers(node, "scale", s, 3);
-    plr_node_numbers(node, "scaleOrientation", o, 4);
-    const plr_matrix parts[] = {
-        plr_matrix_translation((double)t[0] + (double)c[0], (double)t[1] + (double)c[1],
-                               (double)t[2] + (double)c[2]),
-        plr_matrix_rotation(r[0], r[1], r[2], r[3]),
-        plr_matrix_rotation(o[0], o[1], o[2], o[3]),
-        plr_matrix_scale(s[0], s[1], s[2]),
-        plr_matrix_rotation(o[0], o[1], o[2], -o[3]),
-        plr_matrix_translation(-c[0], -c[1], -c[2]),
-    };
-    plr_matrix result = parts[0];
-    for (size_t i = 1; i < sizeof parts / sizeof *parts; i++)
-        result = plr_matrix_multiply(&result, &parts[i]);
-    return result;
-}
-
 static void add_light(walk *w, plr_node *node, const plr_matrix *matrix) {
-    *PLR_PUSH(w->arena, &w->flat->all_lights) = (plr_light){node, *matrix};
+    *PLR_PUSH(w->arena, &w->flat->all_lights) = (plr_light){.node = node, .to_world = *matrix};
     if (!plr_node_bool(node, "on"))
         return;
     bool global = plr_node_bool(node, "global");
     plr_lights *lights = global ? &w->flat->global_lights : &w->scope->lights;
-    *PLR_PUSH(w->arena, lights) = (plr_light){node, *matrix};
+    *PLR_PUSH(w->arena, lights) = (plr_light){.node = node, .to_world = *matrix};
 }
 
 static void visit_children(walk *w, plr_node *node, const char *name, const plr_matrix *matrix) {
@@ -68,10 +44,34 @@ static void visit_children(walk *w, plr_node *node, const char *name, const plr_
     w->scope = outer;
 }
 
-static void visit_transform(walk *w, plr_node *node, const plr_matrix *matrix) {
-    plr_matrix own = transform_matrix(node);
-    plr_matrix product = plr_matrix_multiply(matrix, &own);
-    visit_children(w, node, "children", &product);
+static void visit_fog(walk *w, plr_node *node, const plr_matrix *matrix) {
+    if (!w->flat->fog.node)
+        w->flat->fog = (plr_placed){node, *matrix};
+}
+
+static void visit_local_fog(walk *w, plr_node *node, const plr_matrix *matrix) {
+    if (!w->scope->fog.node && plr_node_bool(node, "enabled"))
+        w->scope->fog = (plr_placed){node, *matrix};
+}
+
+static void visit_clip_plane(walk *w, plr_node *node, const plr_matrix *matrix) {
+    if (plr_node_bool(node, "enabled"))
+        *PLR_PUSH(w->arena, &w->scope->clip_planes) = (plr_placed){node, *matrix};
+}
+
+static void visit_tone_mapping(walk *w, plr_node *node, const plr_matrix *matrix) {
+    (void)matrix;
+    if (!w->flat->tone_mapping)
+        w->flat->tone_mapping = node;
+}
+
+static void visit_group(walk *w, plr_node *node, const plr_matrix *matrix) {
+    plr_matrix own, product = *matrix;
+    if (plr_node_transform(node, own.m))
+        product = plr_matrix_multiply(matrix, &own);
+    static const char *const fields[] = {"children", "shape", "layers", "skeleton", "skin"};
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        visit_children(w, node, fields[i], &product);
 }
 
 static void visit_one(walk *w, plr_node *node, const char *field, size_t index,
@@ -94,9 +94,87 @@ static void visit_switch(walk *w, plr_node *node, const plr_matrix *matrix) {
         visit_one(w, node, field, (size_t)choice, matrix);
 }
 
+/* Where the viewer is, in the coordinates of a node; false where nobody looks or the node's space
+ * has no extent. */
+static bool viewer_in(walk *w, const plr_matrix *matrix, plr_matrix *eye) {
+    plr_matrix to_local;
+    w->flat->depends_on_viewer = true;
+    if (!w->flat->has_eye || !plr_matrix_invert(matrix, &to_local))
+        return false;
+    *eye = plr_matrix_multiply(&to_local, &w->flat->eye_to_world);
+    return true;
+}
+
+/* ISO/IEC 19775-1 V4 23.4.3: the distance counts in the node's own coordinates. */
 static void visit_lod(walk *w, plr_node *node, const plr_matrix *matrix) {
     const plr_field *children = plr_node_field(node, "children");
-    visit_one(w, node, children && children->count ? "children" : "level", 0, matrix);
+    const char *name = children && children->count ? "children" : "level";
+    const plr_field *levels = plr_node_field(node, name), *range = plr_node_field(node, "range");
+    size_t level = 0;
+    plr_matrix eye;
+    if (range && range->count && viewer_in(w, matrix, &eye)) {
+        float c[3] = {0};
+        plr_node_numbers(node, "center", c, 3);
+        double x = eye.m[12] - (double)c[0], y = eye.m[13] - (double)c[1],
+               z = eye.m[14] - (double)c[2], distance = sqrt(x * x + y * y + z * z);
+        while (level < range->count && distance >= (double)range->value.floats[level])
+            level++;
+    }
+    if (levels && levels->count)
+        visit_one(w, node, name, level < levels->count ? level : levels->count - 1, matrix);
+}
+
+static void cross(const double *a, const double *b, double *out) {
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool normalize(double *v) {
+    double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3 && length > 0; i++)
+        v[i] /= length;
+    return length > 0;
+}
+
+/* The turn around an axis that brings the z axis as near to a direction as it comes. */
+static plr_matrix turn_about(const double axis[3], const double *to) {
+    const double z[3] = {0, 0, 1};
+    double from_side[3], to_side[3];
+    cross(axis, z, from_side);
+    cross(axis, to, to_side);
+    double turned[3];
+    cross(from_side, to_side, turned);
+    double angle = atan2(dot(axis, turned), dot(from_side, to_side));
+    return plr_matrix_rotation(axis[0], axis[1], axis[2], angle);
+}
+
+/* 23.4.1: its z axis turns to the viewer, around an axis, or, without one, so that its y axis is
+ * upright on the screen. */
+static void visit_billboard(walk *w, plr_node *node, const plr_matrix *matrix) {
+    float a[3] = {0, 1, 0};
+    plr_node_numbers(node, "axisOfRotation", a, 3);
+    double axis[3] = {a[0], a[1], a[2]};
+    plr_matrix eye, turned = *matrix;
+    if (viewer_in(w, matrix, &eye)) {
+        plr_matrix turn = plr_matrix_identity();
+        double *x = &turn.m[0], *y = &turn.m[4], *z = &turn.m[8];
+        if (normalize(axis)) {
+            turn = turn_about(axis, &eye.m[12]);
+        } else {
+            for (int i = 0; i < 3; i++)
+                z[i] = eye.m[12 + i];
+            cross(&eye.m[4], z, x);
+            cross(z, x, y);
+            if (!normalize(x) || !normalize(y) || !normalize(z))
+                turn = plr_matrix_identity();
+        }
+        turned = plr_matrix_multiply(matrix, &turn);
+    }
+    visit_children(w, node, "children", &turned);
 }
 
 static void visit_viewpoint(walk *w, plr_node *node, const plr_matrix *matrix) {
@@ -121,7 +199,8 @@ static void visit_volume(walk *w, plr_node *node, const plr_matrix *matrix) {
 }
 
 static void visit_shape(walk *w, plr_node *node, const plr_matrix *matrix) {
-    if (plr_node_child(node, "geometry"))
+    const plr_field *render = plr_node_field(node, "render");
+    if (plr_node_child(node, "geometry") && (!render || plr_node_bool(node, "render")))
         *PLR_PUSH(w->arena, &w->flat->shapes) = (plr_leaf){node, *matrix, w->scope};
 }
 
@@ -130,8 +209,13 @@ static void visit_effect(walk *w, plr_node *node, const plr_matrix *matrix) {
     *PLR_PUSH(w->arena, &w->scope->effects) = node;
 }
 
+/* The first one is in use until events bind another one. */
+static bool is_better(const plr_node *node, const plr_node *than) {
+    return !than || (plr_node_bool(node, "isBound") && !plr_node_bool(than, "isBound"));
+}
+
 static void visit_background(walk *w, plr_node *node, const plr_matrix *matrix) {
-    if (!w->flat->background) {
+    if (is_better(node, w->flat->background)) {
         w->flat->background = node;
         w->flat->background_to_world = *matrix;
     }
@@ -139,12 +223,13 @@ static void visit_background(walk *w, plr_node *node, const plr_matrix *matrix) 
 
 static void visit_navigation(walk *w, plr_node *node, const plr_matrix *matrix) {
     (void)matrix;
-    if (!w->flat->navigation)
+    if (is_better(node, w->flat->navigation))
         w->flat->navigation = node;
 }
 
-static void visit_group(walk *w, plr_node *node, const plr_matrix *matrix) {
-    visit_children(w, node, "children", matrix);
+/* What a sensor names is drawn where it stands, not there. */
+static void visit_sensor(walk *w, plr_node *node, const plr_matrix *matrix) {
+    (void)w, (void)node, (void)matrix;
 }
 
 static void not_drawn(walk *w, plr_node *node, const plr_matrix *matrix) {
@@ -158,9 +243,12 @@ static const struct {
     const char *type;
     void (*visit)(walk *, plr_node *, const plr_matrix *);
 } visitors[] = {
-    {"Transform", visit_transform},
+    {"Transform", visit_group},
     {"Switch", visit_switch},
     {"LOD", visit_lod},
+    {"Billboard", visit_billboard},
+    {"Collision", visit_group},
+    {"X3DSensorNode", visit_sensor},
     {"Effect", visit_effect},
     {"VolumeData", visit_volume},
     {"X3DVolumeDataNode", not_drawn},
@@ -169,11 +257,18 @@ static const struct {
     {"X3DViewpointNode", visit_viewpoint},
     {"X3DBackgroundNode", visit_background},
     {"NavigationInfo", visit_navigation},
-    {"KambiNavigationInfo", visit_navigation},
-    {"Fog", not_drawn},
-    {"LocalFog", not_drawn},
-    {"ClipPlane", not_drawn},
+    {"Fog", visit_fog},
+    {"LocalFog", visit_local_fog},
+    {"ClipPlane", visit_clip_plane},
+    {"ToneMapping", visit_tone_mapping},
 };
+
+static bool is_too_deep(walk *w, const plr_node *node) {
+    if (w->depth == MOST_DEPTH)
+        plr_diags_add(w->diags, PLR_CODE_LIMIT, plr_node_place(node),
+                      "nodes inside nodes, deeper than %d; what is deeper is left out", MOST_DEPTH);
+    return w->depth >= MOST_DEPTH;
+}
 
 static bool is_too_much(walk *w, const plr_node *node) {
     if (w->visits == MOST_VISITS)
@@ -185,35 +280,45 @@ static bool is_too_much(walk *w, const plr_node *node) {
 }
 
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix) {
-    if (!node || is_too_much(w, node))
+    if (!node || is_too_much(w, node) || is_too_deep(w, node))
         return;
     const plr_field *visible = plr_node_field(node, "visible");
     if (visible && !plr_node_bool(node, "visible"))
         return;
-    for (size_t i = 0; i < sizeof visitors / sizeof *visitors; i++)
-        if (is_a(node, visitors[i].type)) {
-            visitors[i].visit(w, node, matrix);
-            return;
-        }
-    visit_group(w, node, matrix);
+    size_t i = 0, count = sizeof visitors / sizeof *visitors;
+    while (i < count && !is_a(node, visitors[i].type))
+        i++;
+    w->depth++;
+    (i < count ? visitors[i].visit : visit_group)(w, node, matrix);
+    w->depth--;
 }
 
-void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags) {
-    *flat = (plr_flat){0};
-    plr_scope *top = PLR_NEW(arena, plr_scope);
-    walk w = {arena, flat, diags, top, 0};
+/* The headlight, or another light in its place: where the viewer is. */
+static void add_headlight(plr_arena *arena, plr_flat *flat) {
+    plr_node *node = flat->navigation ? plr_node_child(flat->navigation, "headlightNode") : NULL;
+    if (flat->navigation && !plr_node_bool(flat->navigation, "headlight"))
+        return;
+    if (!node || plr_node_bool(node, "on"))
+        *PLR_PUSH(arena, &flat->global_lights) =
+            (plr_light){.node = node, .to_world = plr_matrix_identity(), .in_eye_space = true};
+}
+
+void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_world, plr_flat *flat,
+                 plr_diags *diags) {
+    *flat = (plr_flat){.has_eye = eye_to_world != NULL};
+    if (eye_to_world)
+        flat->eye_to_world = *eye_to_world;
+    walk w = {.arena = arena, .flat = flat, .diags = diags, .scope = PLR_NEW(arena, plr_scope)};
     plr_matrix identity = plr_matrix_identity();
     for (size_t i = 0; i < plr_scene_root_count(scene); i++)
         visit(&w, plr_scene_root(scene, i), &identity);
-    bool headlight = !flat->navigation || plr_node_bool(flat->navigation, "headlight");
-    if (headlight)
-        *PLR_PUSH(arena, &flat->global_lights) = (plr_light){NULL, identity};
+    add_headlight(arena, flat);
 }
 
 void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
                       plr_flat *flat, plr_diags *diags) {
-    *flat = (plr_flat){0};
-    walk w = {arena, flat, diags, PLR_NEW(arena, plr_scope), 0};
+    *flat = (plr_flat){.has_eye = around->has_eye, .eye_to_world = around->eye_to_world};
+    walk w = {.arena = arena, .flat = flat, .diags = diags, .scope = PLR_NEW(arena, plr_scope)};
     plr_matrix identity = plr_matrix_identity();
     visit(&w, node, &identity);
     bool *inside = PLR_NEW_ARRAY(arena, plr_scene_node_count(scene) + 1, bool);
@@ -221,73 +326,9 @@ void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const 
         inside[plr_node_id(flat->all_lights.items[i].node)] = true;
     for (size_t i = 0; i < around->global_lights.count; i++) {
         plr_light light = around->global_lights.items[i];
-        if (light.node ? !inside[plr_node_id(light.node)] : !flat->navigation)
+        if (light.in_eye_space ? !flat->navigation : !inside[plr_node_id(light.node)])
             *PLR_PUSH(arena, &flat->global_lights) = light;
     }
-    if (flat->navigation && plr_node_bool(flat->navigation, "headlight"))
-        *PLR_PUSH(arena, &flat->global_lights) = (plr_light){NULL, identity};
-}
-
-const plr_viewpoint *plr_flat_viewpoint(const plr_flat *flat, const char *selector) {
-    static const plr_viewpoint standard = {NULL,
-                                           {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 10, 1}}};
-    size_t count = flat->viewpoints.count;
-    if (!selector || !*selector)
-        return count ? &flat->viewpoints.items[0] : &standard;
-    char *end;
-    unsigned long number = strtoul(selector, &end, 10);
-    if (!*end && *selector != '-')
-        return number >= 1 && number <= count ? &flat->viewpoints.items[number - 1] : NULL;
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < count; i++) {
-            const plr_node *node = flat->viewpoints.items[i].node;
-            const char *name = pass ? plr_node_string(node, "description") : plr_node_def(node);
-            if (name && strcmp(name, selector) == 0)
-                return &flat->viewpoints.items[i];
-        }
-    return NULL;
-}
-
-void plr_viewpoint_cut(const plr_viewpoint *viewpoint, double cut[2]) {
-    double near = viewpoint->node ? plr_node_number(viewpoint->node, "nearDistance") : 0;
-    double far = viewpoint->node ? plr_node_number(viewpoint->node, "farDistance") : 0;
-    cut[0] = near > 0 ? near : 0;
-    cut[1] = far > 0 ? far : INFINITY;
-}
-
-/* The box of an OrthoViewpoint grows along one axis until it has the picture's shape. */
-static void fit_box(double box[4], double aspect) {
-    double width = box[2] - box[0], height = box[3] - box[1];
-    double grow_x = width < height * aspect ? (height * aspect - width) / 2 : 0;
-    double grow_y = width > height * aspect ? (width / aspect - height) / 2 : 0;
-    box[0] -= grow_x;
-    box[2] += grow_x;
-    box[1] -= grow_y;
-    box[3] += grow_y;
-}
-
-void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double height,
-                            const double depths[2], plr_matrix *projection, plr_matrix *view) {
-    plr_matrix_invert(&viewpoint->to_world, view);
-    double cut[2];
-    plr_viewpoint_cut(viewpoint, cut);
-    double near = cut[0] > 0 ? cut[0] : depths[0], far = isfinite(cut[1]) ? cut[1] : depths[1];
-    if (!(far > near))
-        far = near + 1 + fabs(near);
-    double aspect = width / height;
-    if (viewpoint->node && plr_node_is(viewpoint->node, "OrthoViewpoint")) {
-        float given[4] = {-1, -1, 1, 1};
-        plr_node_numbers(viewpoint->node, "fieldOfView", given, 4);
-        double box[4] = {given[0], given[1], given[2], given[3]};
-        fit_box(box, aspect);
-        *projection = plr_matrix_orthographic(box, near, far);
-        return;
-    }
-    /* ISO/IEC 19775-1 V4 23.4.6: fieldOfView is the smaller of the two angles of the window */
-    double angle = viewpoint->node ? plr_node_number(viewpoint->node, "fieldOfView") : 0;
-    if (!(angle > 0 && angle < 3.14159))
-        angle = 0.785398163397448;
-    double half = tan(angle / 2);
-    double x = aspect >= 1 ? half * aspect : half, y = aspect >= 1 ? half : half / aspect;
-    *projection = plr_matrix_perspective((double[]){-x, -y, x, y}, near, far);
+    if (flat->navigation)
+        add_headlight(arena, flat);
 }

@@ -44,7 +44,7 @@ static void upload(plr_view *view) {
 }
 
 static bool prepare(plr_view *view, plr_diags *diags) {
-    plr_flatten(&view->arena, view->scene, &view->flat, diags);
+    plr_flatten(&view->arena, view->scene, NULL, &view->flat, diags);
     view->viewpoint = plr_flat_viewpoint(&view->flat, view->desc.viewpoint);
     if (!view->viewpoint) {
         plr_diags_add(diags, PLR_CODE_UNKNOWN_DEF, (plr_place){0}, "there is no viewpoint '%s'",
