@@ -24,6 +24,10 @@ struct plr_catalog {
         plr_known_plug *items;
         size_t count, capacity;
     } plugs;
+    struct {
+        const char **items;
+        size_t count, capacity;
+    } targets;
 };
 
 static const struct {
@@ -108,6 +112,24 @@ static void read_all(plr_catalog *catalog, plr_diags *diags) {
     }
 }
 
+/* An effect is called as its file or as the node that brings it: of one of these types. */
+static void list_targets(plr_catalog *catalog) {
+    static const char *const types[] = {
+        "X3DVolumeRenderStyleNode", "X3DLightNode", "X3DTextureNode",   "X3DTextureTransformNode",
+        "X3DMaterialNode",          "X3DFogObject", "X3DVolumeDataNode"};
+    for (size_t i = 0; i < catalog->entries.count; i++) {
+        const char *slash = strrchr(catalog->entries.items[i].path, '/');
+        *PLR_PUSH(&catalog->arena, &catalog->targets) =
+            slash ? slash + 1 : catalog->entries.items[i].path;
+    }
+    for (size_t i = 0; i < plr_node_info_count(); i++) {
+        const plr_node_info *info = plr_node_info_at(i);
+        for (size_t t = 0; t < sizeof types / sizeof *types; t++)
+            if (plr_node_info_is(info, types[t]))
+                *PLR_PUSH(&catalog->arena, &catalog->targets) = info->name;
+    }
+}
+
 plr_catalog *plr_catalog_create(plr_diags *diags) {
     plr_allocator allocator = plr_allocator_resolve(NULL);
     plr_catalog *volatile catalog = allocator.reallocate(allocator.user, NULL, sizeof *catalog);
@@ -122,6 +144,7 @@ plr_catalog *plr_catalog_create(plr_diags *diags) {
         return NULL;
     }
     read_all(catalog, diags);
+    list_targets(catalog);
     return catalog;
 }
 
@@ -151,4 +174,9 @@ const plr_sources *plr_catalog_library(const plr_catalog *catalog) {
 const plr_known_plug *plr_catalog_plugs(const plr_catalog *catalog, size_t *count) {
     *count = catalog->plugs.count;
     return catalog->plugs.items;
+}
+
+const char *const *plr_catalog_targets(const plr_catalog *catalog, size_t *count) {
+    *count = catalog->targets.count;
+    return catalog->targets.items;
 }

@@ -22,5 +22,7 @@ const plr_sources *plr_catalog_units(const plr_catalog *catalog, const char *pat
 const plr_sources *plr_catalog_library(const plr_catalog *catalog);
 /* Every plug that any of the files offers. */
 const plr_known_plug *plr_catalog_plugs(const plr_catalog *catalog, size_t *count);
+/* The names of built-in effects, for the targets of others. */
+const char *const *plr_catalog_targets(const plr_catalog *catalog, size_t *count);
 
 #endif

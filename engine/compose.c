@@ -29,6 +29,8 @@ plr_program *plr_link_recipe(plr_composer *c, const plr_recipe *recipe, bool kee
     size_t known_count;
     const plr_known_plug *known = plr_catalog_plugs(c->kitchen->catalog, &known_count);
     const plr_sources *library = plr_catalog_library(c->kitchen->catalog);
+    size_t target_count;
+    const char *const *targets = plr_catalog_targets(c->kitchen->catalog, &target_count);
     plr_link_desc desc = {.base = recipe->base.items,
                           .base_count = recipe->base.count,
                           .library = library->items,
@@ -39,6 +41,8 @@ plr_program *plr_link_recipe(plr_composer *c, const plr_recipe *recipe, bool kee
                           .define_count = recipe->defines.count,
                           .known_plugs = known,
                           .known_plug_count = known_count,
+                          .known_targets = targets,
+                          .known_target_count = target_count,
                           .keep_all = keep_all};
     plr_phase start = plr_clock();
     plr_program *program = plr_link(&desc, diags);

@@ -38,22 +38,6 @@ static bool take_text(plr_linking *l, plr_scope *scope) {
     return good;
 }
 
-/* The plugs that a faulty or disabled effect would have offered: who needs them lacks them. */
-static void note_lost(plr_linking *l, uint32_t effect) {
-    uint32_t *number = PLR_NEW(l->pass, uint32_t);
-    *number = effect;
-    const plr_effect *lost = &l->desc->effects[effect];
-    for (size_t s = 0; s < lost->source_count; s++) {
-        const plr_source *source = lost->sources[s];
-        const plr_reading *reading =
-            source ? plr_table_get(&l->readings, (uint64_t)(uintptr_t)source) : NULL;
-        for (size_t i = 0; reading && i < source->lexed.plugs.count; i++) {
-            uint32_t gid = reading->gids[source->lexed.plugs.items[i].name];
-            *plr_table_put(l->pass, &l->lost, (uint64_t)(source->stage + 1u) << 32 | gid) = number;
-        }
-    }
-}
-
 static bool check_effect(plr_linking *l, uint32_t e) {
     const plr_effect *effect = &l->desc->effects[e];
     bool has_target = effect->target && *effect->target;
@@ -72,6 +56,19 @@ static bool check_effect(plr_linking *l, uint32_t e) {
 
 static void add_effect(plr_linking *l, uint32_t e) {
     bool good = check_effect(l, e);
+    const plr_message *unfit = l->unfit[e];
+    if (unfit && unfit->text) {
+        *PLR_PUSH(l->pass, &l->messages) = *unfit;
+        l->faulty[e] = true;
+        plr_note_lost(l, e);
+        return;
+    }
+    if (unfit) {
+        l->left_out[e] = true;
+        return;
+    }
+    if (good)
+        plr_check_target(l, e);
     if (good && l->desc->effects[e].only_if_active && !plr_target_exists(l, e)) {
         l->left_out[e] = true;
         return;
@@ -87,7 +84,7 @@ static void add_effect(plr_linking *l, uint32_t e) {
         good &= plr_define_names(l, plr_scope_of(l, (plr_stage)s, e));
     if (!good) {
         l->faulty[e] = true;
-        note_lost(l, e);
+        plr_note_lost(l, e);
         return;
     }
     for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
@@ -142,7 +139,7 @@ void plr_add_effects(plr_linking *l) {
     }
     for (uint32_t e = 0; e < l->effect_count && !l->base_fault; e++)
         if (l->desc->effects[e].disabled)
-            note_lost(l, e);
+            plr_note_lost(l, e);
         else
             add_effect(l, e);
     if (l->base_fault)

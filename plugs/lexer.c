@@ -194,8 +194,11 @@ static void finish_word(lexer *lx, uint8_t kind, uint32_t begin, uint32_t value,
     plr_token *token = push_token(lx, kind, begin, value);
     if (spliced)
         token->flags |= PLR_TF_SPLICED;
-    if (lx->after_dot)
+    if (lx->after_dot) {
         token->flags |= PLR_TF_MEMBER;
+        if (kind == PLR_T_IDENT)
+            lx->out->idents.items[value].flags |= PLR_IF_MEMBER;
+    }
     lx->after_dot = false;
 }
 

@@ -42,12 +42,13 @@ typedef struct plr_token {
 } plr_token;
 
 enum {
-    PLR_IF_PLUG = 1,     /* begins with PLUG_ and goes on */
-    PLR_IF_CASTLE = 2,   /* begins with castle_ */
-    PLR_IF_RESERVED = 4, /* plr[0-9]+u?_... */
-    PLR_IF_GL = 8,       /* gl_... */
-    PLR_IF_PLUGRAY = 16, /* plugray_... */
-    PLR_IF_DECLARED = 32 /* a word reserved since, declared as a name somewhere in the text */
+    PLR_IF_PLUG = 1,      /* begins with PLUG_ and goes on */
+    PLR_IF_CASTLE = 2,    /* begins with castle_ */
+    PLR_IF_RESERVED = 4,  /* plr[0-9]+u?_... */
+    PLR_IF_GL = 8,        /* gl_... */
+    PLR_IF_PLUGRAY = 16,  /* plugray_... */
+    PLR_IF_DECLARED = 32, /* a word reserved since, declared as a name somewhere in the text */
+    PLR_IF_MEMBER = 64    /* stands after a dot, or names a member, somewhere in the text */
 };
 
 typedef struct plr_ident {

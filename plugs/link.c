@@ -66,6 +66,18 @@ static void note_questions(plr_linking *l) {
     }
 }
 
+static void note_members(plr_linking *l) {
+    for (size_t e = 0; e < l->desc->effect_count; e++)
+        for (size_t s = 0; s < l->desc->effects[e].source_count; s++) {
+            const plr_source *source = l->desc->effects[e].sources[s];
+            const plr_reading *reading =
+                source ? plr_table_get(&l->readings, (uint64_t)(uintptr_t)source) : NULL;
+            for (size_t i = 0; reading && i < source->lexed.idents.count; i++)
+                if (source->lexed.idents.items[i].flags & PLR_IF_MEMBER)
+                    l->members[reading->gids[i]] = 1;
+        }
+}
+
 static void start_round(plr_linking *l, plr_arena *pass) {
     size_t idents = l->idents.count + 1, effects = (size_t)l->effect_count + 1;
     plr_linking fresh = {.desc = l->desc,
@@ -81,6 +93,9 @@ static void start_round(plr_linking *l, plr_arena *pass) {
                          .reads = l->reads,
                          .offered = l->offered,
                          .asked = l->asked,
+                         .members = l->members,
+                         .unfit = l->unfit,
+                         .restarts = l->restarts,
                          .dynamic = l->dynamic,
                          .all = l->all,
                          .names = l->names,
@@ -97,6 +112,7 @@ static void start_round(plr_linking *l, plr_arena *pass) {
     l->left_out = PLR_NEW_ARRAY(pass, effects, bool);
     l->active = PLR_NEW_ARRAY(pass, effects, bool);
     l->provider_of = PLR_NEW_ARRAY(pass, effects, uint32_t);
+    l->lost_from = PLR_NEW_ARRAY(pass, effects, uint32_t);
 }
 
 static void prepare(plr_linking *l, plr_arena *pass) {
@@ -112,7 +128,10 @@ static void prepare(plr_linking *l, plr_arena *pass) {
     l->reads = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
     l->offered = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
     l->asked = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
+    l->members = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
+    l->unfit = PLR_NEW_ARRAY(l->arena, (size_t)l->effect_count + 1, plr_message *);
     note_questions(l);
+    note_members(l);
 }
 
 static void next_pass(plr_program *program) {
@@ -121,12 +140,18 @@ static void next_pass(plr_program *program) {
     plr_arena_init(&program->pass, &program->allocator, out_of_memory);
 }
 
-/* What was asked for with the stage may not be asked for without it. */
-static void drop_geometry(plr_linking *l) {
-    l->no_geometry = true;
+#define MAX_RESTARTS 64
+
+/* Begins anew where something is to be left out: what it asked for is asked no more. */
+static bool restart(plr_program *program) {
+    plr_linking *l = &program->linking;
+    if (!l->again || l->restarts >= MAX_RESTARTS)
+        return false;
+    l->restarts++;
     l->used = PLR_NEW_ARRAY(l->arena, l->idents.count + 1, uint8_t);
     l->reads = PLR_NEW_ARRAY(l->arena, l->idents.count + 1, uint8_t);
-    plr_set_hosts(l);
+    next_pass(program);
+    return true;
 }
 
 static void run_rounds(plr_program *program) {
@@ -142,8 +167,12 @@ static void run_rounds(plr_program *program) {
         if (l->base_fault)
             return;
         if (l->stages & 1u << PLR_GEOMETRY && !plr_entry(l, PLR_GEOMETRY)) {
-            drop_geometry(l);
-            next_pass(program);
+            l->no_geometry = true;
+            plr_set_hosts(l);
+            l->again = true;
+        }
+        if (restart(program)) {
+            round = 0;
             continue;
         }
         if (!sure && plr_lower_version(l)) {
@@ -153,9 +182,19 @@ static void run_rounds(plr_program *program) {
         }
         sure = true;
         plr_reach(l);
-        if (!l->dynamic || !l->grown || l->all)
+        if (restart(program)) {
+            round = 0;
+            continue;
+        }
+        if (l->dynamic && l->grown && !l->all) {
+            next_pass(program);
+            continue;
+        }
+        if (l->placements)
+            plr_leave_inactive(l);
+        if (!restart(program))
             return;
-        next_pass(program);
+        round = 0;
     }
 }
 

@@ -78,6 +78,12 @@ struct plr_binding {
     uint32_t stamp;
 };
 
+/* A branch of a conditional that is kept. */
+typedef struct plr_branch {
+    const struct plr_branch *outer;
+    uint32_t depth, group, number; /* which conditional of its unit, which of its branches */
+} plr_branch;
+
 /* A function PLUG_xxx. */
 typedef struct plr_function {
     plr_node *node;
@@ -91,7 +97,9 @@ typedef struct plr_function {
     bool guarded; /* in some branch that is kept: whether it is there is known to the compiler only
                    */
     const plr_item *item;
+    const plr_branch *branch;       /* the innermost that it stands in */
     struct plr_function *twin;      /* the same in another branch of a kept conditional */
+    const struct plr_function *met; /* the last one that stands in the same branch */
     struct plr_function *next;      /* in its unit */
     struct plr_function *next_same; /* of the same name in the effect and stage */
 } plr_function;
@@ -205,7 +213,11 @@ typedef struct plr_linking {
     uint8_t *used, *reads; /* by gid */
     uint8_t *offered;      /* by gid: plugs of texts that ask */
     uint8_t *asked;        /* by gid: PLR_ASKED_... */
+    uint8_t *members;      /* by gid: whether an effect has a member of that name */
     bool dynamic, grown, all;
+    plr_message **unfit; /* by effect: left out, and why; text NULL: not needed */
+    unsigned restarts;
+    bool again;       /* the round found an effect to be left out */
     bool no_geometry; /* no text of the geometry stage has main(): there is no such stage */
 
     /* One round. */
@@ -214,8 +226,9 @@ typedef struct plr_linking {
     plr_scope *scopes[PLR_STAGE_COUNT]; /* by effect, then base, library, host */
     plr_table symbols;                  /* (scope number, gid) -> plr_binding */
     plr_table by_plug;                  /* (stage, instance, gid) -> plr_sockets */
-    plr_table functions; /* (scope number, gid of PLUG_x) -> the first plr_function */
-    plr_table lost;      /* (stage, gid) -> effect + 1 that was faulty and would have offered it */
+    plr_table functions;  /* (scope number, gid of PLUG_x) -> the first plr_function */
+    plr_table lost_names; /* (effect, gid): a faulty effect declares it */
+    plr_table lost;       /* (stage, gid) -> effect + 1 that was faulty and would have offered it */
     PLR_LIST(plr_socket *) sockets;
     bool *faulty, *left_out, *active;
     PLR_LIST(plr_message) messages;
@@ -224,6 +237,8 @@ typedef struct plr_linking {
     uint32_t *provider_of; /* by effect: the scope that it was last noted for */
     PLR_LIST(plr_node *) queue;
     PLR_LIST(plr_pending) pending; /* calls of the effect at hand */
+    uint32_t *lost_from;           /* by effect: + 1: the faulty one that it would build on */
+    bool *called;                  /* by effect: it has calls, or had before others' removal */
     bool *removed;                 /* by effect: another takes its calls away */
     uint32_t *names, *targets;     /* by effect: gids, PLR_NONE: none */
     bool placements;               /* some effect has one */
@@ -331,6 +346,14 @@ void plr_note_targets(plr_linking *l);
 bool plr_target_exists(const plr_linking *l, uint32_t effect);
 void plr_order_calls(plr_linking *l);
 
+/* Leaves out the effects that are there only if their target is, and it is not. */
+void plr_leave_inactive(plr_linking *l);
+
+/* lost.c: what faulty effects would have given to others. */
+void plr_note_lost(plr_linking *l, uint32_t effect);
+/* Whether the effect lacks the name; then it is left out in the next round. */
+bool plr_lacks_name(plr_linking *l, const plr_unit *unit, uint32_t token);
+
 /* reach.c: what the program needs. */
 void plr_reach(plr_linking *l);
 /* The functions that a direct call of PLUG_x with that many arguments means, in `found`. */
@@ -365,6 +388,8 @@ void plr_say_note(plr_linking *l, plr_place place, const char *format, ...) PLR_
 const char *plr_gid_text(plr_linking *l, uint32_t gid);
 /* An effect for messages: its name, or its number. */
 const char *plr_effect_text(plr_linking *l, uint32_t effect);
-void plr_say_unplaced(plr_linking *l, const plr_unit *unit, const plr_function *function);
+void plr_say_unplaced(plr_linking *l, const plr_unit *unit, plr_function *function);
+/* The target of an effect, if it is the name of nothing that is known. */
+void plr_check_target(plr_linking *l, uint32_t effect);
 
 #endif

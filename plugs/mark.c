@@ -151,7 +151,9 @@ void plr_each_member(const plr_lexed *lexed, uint32_t open, uint32_t close,
 }
 
 static void mark_plain(void *user, uint32_t token) {
-    ((plr_token *)user)[token].flags |= PLR_TF_PLAIN;
+    plr_lexed *lexed = user;
+    lexed->tokens.items[token].flags |= PLR_TF_PLAIN;
+    lexed->idents.items[lexed->tokens.items[token].value].flags |= PLR_IF_MEMBER;
 }
 
 /* Members of `struct S { }` and of blocks with an instance name, keys of `layout ( )`. */
@@ -168,10 +170,10 @@ static void mark_members(marker *m) {
                 tokens[i - 1].kind == PLR_T_IDENT && after == PLR_T_IDENT &&
                 (tokens[i - 2].kind == ')' || has_kind(lexed, i - 2, PLR_WORD_IS_QUALIFIER));
             if (is_struct || block)
-                plr_each_member(lexed, i, tokens[i].value, mark_plain, tokens);
+                plr_each_member(lexed, i, tokens[i].value, mark_plain, m->lexed);
         } else if (tokens[i].kind == '{' && tokens[i].value != PLR_NONE && i == 1 &&
                    is_word(lexed, 0, PLR_WORD_struct)) {
-            plr_each_member(lexed, i, tokens[i].value, mark_plain, tokens);
+            plr_each_member(lexed, i, tokens[i].value, mark_plain, m->lexed);
         } else if (is_word(lexed, i, PLR_WORD_layout) && tokens[i + 1].kind == '(' &&
                    tokens[i + 1].value != PLR_NONE) {
             for (uint32_t k = i + 2; k < tokens[i + 1].value; k++)

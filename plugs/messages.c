@@ -108,6 +108,14 @@ static void consider(nearest *n, const plr_ident *wanted, const char *name, uint
     n->distances[at] = distance;
 }
 
+static const char *nearest_text(plr_linking *l, const nearest *n) {
+    const char *text = "";
+    for (uint32_t i = 0; i < n->count; i++)
+        text = plr_arena_format(l->pass, "%s%s\"%.*s\"", text, i ? " or " : "; did you mean ",
+                                (int)n->lengths[i], n->names[i]);
+    return text;
+}
+
 static const char *list_nearest(plr_linking *l, const plr_unit *unit, uint32_t plug) {
     nearest n = {.count = 0};
     const plr_ident *wanted = &l->idents.items[plug];
@@ -121,11 +129,7 @@ static const char *list_nearest(plr_linking *l, const plr_unit *unit, uint32_t p
         if (l->desc->known_plugs[i].stage == unit->scope->stage)
             consider(&n, wanted, l->desc->known_plugs[i].name,
                      (uint32_t)strlen(l->desc->known_plugs[i].name));
-    const char *text = "";
-    for (uint32_t i = 0; i < n.count; i++)
-        text = plr_arena_format(l->pass, "%s%s\"%.*s\"", text, i ? " or " : "; did you mean ",
-                                (int)n.lengths[i], n.names[i]);
-    return text;
+    return nearest_text(l, &n);
 }
 
 /* The stages that have the plug: in this link, else among the known ones. Bits. */
@@ -162,7 +166,28 @@ static const char *stage_list(plr_linking *l, unsigned stages) {
     return text;
 }
 
-void plr_say_unplaced(plr_linking *l, const plr_unit *unit, const plr_function *function) {
+void plr_check_target(plr_linking *l, uint32_t e) {
+    const plr_effect *effect = &l->desc->effects[e];
+    if (plr_target_exists(l, e))
+        return;
+    nearest n = {.count = 0};
+    plr_ident wanted = {.text = effect->target, .length = (uint32_t)strlen(effect->target)};
+    for (size_t i = 0; i < l->desc->known_target_count; i++) {
+        const char *name = l->desc->known_targets[i];
+        if (strcmp(name, effect->target) == 0)
+            return; /* the host has it, where it makes sense */
+        consider(&n, &wanted, name, (uint32_t)strlen(name));
+    }
+    for (uint32_t i = 0; i < l->effect_count && l->compared < MAX_COMPARED; i++, l->compared++)
+        if (l->names[i] != PLR_NONE)
+            consider(&n, &wanted, l->desc->effects[i].name,
+                     (uint32_t)strlen(l->desc->effects[i].name));
+    if (!effect->only_if_active || l->desc->known_target_count)
+        plr_say(l, PLR_CODE_UNKNOWN_TARGET, effect->place, "%s: there is no effect \"%.100s\"%s",
+                plr_effect_text(l, e), effect->target, nearest_text(l, &n));
+}
+
+void plr_say_unplaced(plr_linking *l, const plr_unit *unit, plr_function *function) {
     unsigned here = 1u << unit->scope->stage;
     const plr_socket *sockets[PLR_STAGE_COUNT] = {NULL};
     plr_place place = plr_token_place(unit, function->name->token);
@@ -173,6 +198,7 @@ void plr_say_unplaced(plr_linking *l, const plr_unit *unit, const plr_function *
     if (lost) {
         plr_say(l, PLR_CODE_LACKS, place, "%s lacks the plug \"%s\", that %s would have offered",
                 plr_effect_text(l, function->effect), name, plr_effect_text(l, *lost));
+        l->lost_from[function->effect] = *lost + 1;
         return;
     }
     unsigned stages = stages_of(l, function->plug, sockets);

@@ -488,6 +488,12 @@ static bool is_hidden_by_base(const plr_linking *l, const plr_binding *symbol) {
     return base && !base->weak;
 }
 
+/* A macro of the base or the library that would replace members of effects. */
+static bool is_macro_like_member(const plr_linking *l, const plr_binding *symbol) {
+    return symbol->macro && l->members[symbol->gid] &&
+           (symbol->scope->owner == PLR_OWNER_BASE || symbol->scope->owner == PLR_OWNER_LIBRARY);
+}
+
 static plr_binding *find_meaning(const plr_linking *l, const plr_unit *unit, uint32_t gid) {
     const plr_scope *scope = unit->scope;
     const plr_scope *scopes = l->scopes[scope->stage];
@@ -601,6 +607,11 @@ const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *leng
                 name_variant(l, symbol, ident);
             else
                 symbol->text = effect_name(l, symbol->scope->owner, ident, 0, &symbol->length);
+        } else if (is_macro_like_member(l, symbol)) {
+            bool library = symbol->scope->owner == PLR_OWNER_LIBRARY;
+            symbol->text = plr_arena_format(l->pass, "plr_%s_%.*s", library ? "lib" : "base",
+                                            (int)ident->length, ident->text);
+            symbol->length = (uint32_t)strlen(symbol->text);
         } else if (is_hidden_by_base(l, symbol)) {
             symbol->text =
                 plr_arena_format(l->pass, "plr_lib_%.*s", (int)ident->length, ident->text);

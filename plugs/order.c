@@ -73,6 +73,37 @@ bool plr_target_exists(const plr_linking *l, uint32_t effect) {
     return !target_of(l, effect) || plr_table_get(&l->targets_of, aim_of(l, effect));
 }
 
+/* Marks the effects that are called, whatever others remove. Sockets stand in the order of their
+ * effects, and an effect is called at sockets of earlier ones. */
+static void find_called(plr_linking *l) {
+    l->called = PLR_NEW_ARRAY(l->pass, (size_t)l->effect_count + 1, bool);
+    for (size_t i = 0; i < l->sockets.count; i++) {
+        const plr_socket *socket = l->sockets.items[i];
+        if (socket->effect < l->effect_count && !l->called[socket->effect])
+            continue;
+        for (size_t c = 0; c < socket->calls.count; c++)
+            l->called[socket->calls.items[c].function->effect] = true;
+    }
+}
+
+void plr_leave_inactive(plr_linking *l) {
+    plr_table active = {NULL, NULL, 0, 0};
+    for (uint32_t e = 0; e < l->effect_count; e++) {
+        uint64_t keys[4];
+        unsigned count = l->names[e] == PLR_NONE || !l->called[e] ? 0 : keys_of(l, e, keys);
+        for (unsigned k = 0; k < count; k++)
+            *plr_table_put(l->pass, &active, keys[k]) = l;
+    }
+    for (uint32_t e = 0; e < l->effect_count; e++) {
+        const plr_effect *effect = &l->desc->effects[e];
+        if (!effect->only_if_active || effect->disabled || l->faulty[e] || l->left_out[e] ||
+            !target_of(l, e) || plr_table_get(&active, aim_of(l, e)))
+            continue;
+        l->unfit[e] = PLR_NEW(l->arena, plr_message);
+        l->again = true;
+    }
+}
+
 /* Marks the effects that others REMOVE or REPLACE. */
 static void mark_removed(plr_linking *l) {
     plr_table aims = {NULL, NULL, 0, 0};
@@ -218,8 +249,10 @@ static void arrange_plain(plr_linking *l, plr_socket *socket) {
 
 void plr_order_calls(plr_linking *l) {
     l->removed = PLR_NEW_ARRAY(l->pass, (size_t)l->effect_count + 1, bool);
-    if (l->placements)
+    if (l->placements) {
+        find_called(l);
         mark_removed(l);
+    }
     for (size_t i = 0; i < l->sockets.count; i++) {
         plr_socket *socket = l->sockets.items[i];
         if (socket->calls.count == 0)

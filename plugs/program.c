@@ -181,6 +181,8 @@ static spelling word_spelling(const char *word, size_t length) {
             return (spelling){entry->text, entry->length};
         if (own && length > 8 && memcmp(word, "plr_lib_", 8) == 0)
             return (spelling){word + 8, length - 8};
+        if (own && length > 9 && memcmp(word, "plr_base_", 9) == 0)
+            return (spelling){word + 9, length - 9};
         if (own && entry->kinds & PLR_WORD_IS_SINCE &&
             same_text(entry->text, entry->length, word + 4, length - 4))
             return (spelling){entry->text, entry->length};

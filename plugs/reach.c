@@ -94,6 +94,8 @@ static void reach_ident(plr_linking *l, plr_node *node, uint32_t token) {
         reach_symbol(l, symbol);
     } else if (action == PLR_ACTION_SPECIAL) {
         reach_special(l, node, token);
+    } else if (!(t->flags & (PLR_TF_MEMBER | PLR_TF_PLAIN | PLR_TF_LOCAL))) {
+        plr_lacks_name(l, unit, token);
     }
 }
 

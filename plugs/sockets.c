@@ -52,19 +52,73 @@ uint32_t plr_function_end(const plr_unit *unit, const plr_name *name) {
     return tokens[open].kind == '(' ? tokens[open].value : body;
 }
 
+/* Follows the branches of kept conditionals through a unit. */
+typedef struct branches {
+    const plr_branch *inner;
+    uint32_t next_directive, groups;
+} branches;
+
+static const plr_branch *new_branch(plr_linking *l, const plr_branch *outer, uint32_t group,
+                                    uint32_t number) {
+    plr_branch *branch = PLR_NEW(l->pass, plr_branch);
+    *branch = (plr_branch){outer, outer ? outer->depth + 1 : 1, group, number};
+    return branch;
+}
+
+/* The innermost branch at a token that comes after the last one asked for. */
+static const plr_branch *branch_at(plr_linking *l, const plr_unit *unit, branches *b,
+                                   uint32_t token) {
+    const plr_lexed *lexed = unit->lexed;
+    for (; unit->activity && b->next_directive < lexed->directives.count; b->next_directive++) {
+        uint32_t i = b->next_directive;
+        if (lexed->directives.items[i].token > token)
+            break;
+        uint8_t kept = unit->activity->kept[i];
+        if (kept == PLR_KEPT_IF)
+            b->inner = new_branch(l, b->inner, ++b->groups, 0);
+        else if (b->inner && (kept == PLR_KEPT_ELIF || kept == PLR_KEPT_ELSE))
+            b->inner = new_branch(l, b->inner->outer, b->inner->group, b->inner->number + 1);
+        else if (b->inner && kept == PLR_KEPT_ENDIF)
+            b->inner = b->inner->outer;
+    }
+    return b->inner;
+}
+
+/* Whether the compiler sees one of them at most. */
+static bool exclude(const plr_branch *a, const plr_branch *b) {
+    while (a && b && a != b) {
+        if (a->group == b->group)
+            return true;
+        if (a->depth >= b->depth)
+            a = a->outer;
+        else
+            b = b->outer;
+    }
+    return false;
+}
+
 /* One function in several branches of a conditional that is kept: only one of them will be. */
 static plr_function *find_twin(plr_function *first, const plr_function *function) {
-    unsigned looked = 0;
+    plr_function *like[64];
+    unsigned count = 0, looked = 0;
     if (function->item->kind != PLR_ITEM_GROUP)
         return NULL;
-    for (plr_function *f = first; f != function && looked < 64; f = f->next, looked++)
-        if (f->gid == function->gid && f->name->parameters == function->name->parameters)
-            return f->twin ? f->twin : f;
+    for (plr_function *f = first; f != function && looked < 64; f = f->next, looked++) {
+        if (f->gid != function->gid || f->name->parameters != function->name->parameters)
+            continue;
+        plr_function *root = f->twin ? f->twin : f;
+        if (!exclude(f->branch, function->branch))
+            root->met = function; /* they are both there */
+        like[count++] = root;
+    }
+    for (unsigned i = 0; i < count; i++)
+        if (like[i]->met != function)
+            return like[i];
     return NULL;
 }
 
 static bool add_function(plr_linking *l, plr_unit *unit, const plr_item *item, const plr_name *name,
-                         plr_function **first) {
+                         plr_function **first, branches *at) {
     const plr_ident *ident = plr_token_ident(unit, name->token);
     uint16_t type = PLR_WORD_NONE;
     if (name->type != PLR_NONE && unit->lexed->tokens.items[name->type].kind == PLR_T_IDENT)
@@ -86,6 +140,7 @@ static bool add_function(plr_linking *l, plr_unit *unit, const plr_item *item, c
     unit->last_function = function;
     if (!*first || (*first)->item != item)
         *first = function;
+    function->branch = branch_at(l, unit, at, name->token);
     function->twin = find_twin(*first, function);
     bool known = plr_function_end(unit, name) != PLR_NONE;
     if (function->twin)
@@ -100,13 +155,14 @@ bool plr_find_functions(plr_linking *l, plr_scope *scope) {
     for (uint32_t u = 0; u < scope->unit_count; u++) {
         plr_unit *unit = &scope->units[u];
         plr_function *first = NULL; /* of the item at hand */
+        branches at = {NULL, 0, 0};
         for (size_t i = 0; unit->cut && i < unit->cut->items.count; i++) {
             const plr_item *item = &unit->cut->items.items[i];
             for (uint32_t n = 0; n < item->name_count; n++) {
                 const plr_name *name = &unit->cut->names.items[item->names + n];
                 if (name->kind == PLR_ITEM_FUNCTION &&
                     plr_token_ident(unit, name->token)->flags & PLR_IF_PLUG)
-                    good &= add_function(l, unit, item, name, &first);
+                    good &= add_function(l, unit, item, name, &first, &at);
             }
         }
     }

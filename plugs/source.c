@@ -92,6 +92,8 @@ plr_place plr_source_place(const plr_source *source, size_t offset) {
         place.column = 1;
         start = source->lines[last - 1];
     }
+    if (start == 0 && offset >= 3 && memcmp(source->text, "\xEF\xBB\xBF", 3) == 0)
+        start = 3; /* a byte-order mark takes no room */
     place.column += (uint32_t)(offset - start);
     return place;
 }

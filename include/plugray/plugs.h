@@ -118,6 +118,10 @@ typedef struct plr_link_desc {
     size_t define_count;
     const plr_known_plug *known_plugs;
     size_t known_plug_count;
+    /* Names of built-in effects that the host knows, for messages: silent where one is not there,
+     * offered as the nearest name. */
+    const char *const *known_targets;
+    size_t known_target_count;
     plr_target_glsl glsl;
     bool keep_all;      /* leave nothing out */
     size_t max_text;    /* bytes of input at most; 0: 64 MiB */

@@ -110,6 +110,25 @@ static void test_twins(void) {
     CHECK_SILENT();
 }
 
+/* Twins stand in different branches; in one branch they are two. */
+static void test_two_in_a_branch(void) {
+    begin();
+    base(BASE);
+    effect("#ifdef GL_ARB_never\nvoid PLUG_change(inout vec4 x) { x.r = 0.25; }\n"
+           "void PLUG_change(inout vec4 x) { x.g = 0.25; }\n#elif defined(GL_ARB_other)\n"
+           "void PLUG_change(inout vec4 x) { x.b = 0.25; }\n#else\n"
+           "#ifdef GL_ARB_third\n#endif\nvoid PLUG_change(inout vec4 x) { x.r = 0.5; }\n"
+           "#ifdef GL_ARB_third\nvoid PLUG_change(inout vec4 x) { x.g = 0.5; }\n#else\n"
+           "void PLUG_change(inout vec4 x) { x.b = 0.5; }\n#endif\n#endif\n");
+    const linked *r = link_valid();
+    CHECK_INT(occurrences(r->fragment, "  plr0_change(c);"), 1);
+    CHECK_INT(occurrences(r->fragment, "  plr0_change_2(c);"), 1);
+    CHECK_LACKS(r->fragment, "change_3");
+    CHECK_INT(occurrences(r->fragment, "void plr0_change(inout vec4 x) {"), 3);
+    CHECK_INT(occurrences(r->fragment, "void plr0_change_2(inout vec4 x) {"), 3);
+    CHECK_SILENT();
+}
+
 static void test_macros_across_units(void) {
     begin();
     base(BASE);
@@ -260,6 +279,7 @@ int main(void) {
     test_effect_defines();
     test_kept();
     test_twins();
+    test_two_in_a_branch();
     test_macros_across_units();
     test_used();
     test_reads_of_stages();

@@ -182,6 +182,17 @@ static void test_kept_text(void) {
     CHECK(!plr_program_is_faulty(r->program, 0));
 }
 
+/* A byte-order mark takes no column; only the text's own first line has one. */
+static void test_byte_order_mark(void) {
+    begin();
+    base("out vec4 c;\nvoid main() {\n  c = vec4(1.0);\n  /* PLUG: change (c) */\n}\n");
+    effect("\xEF\xBB\xBFint PLUG_change(inout vec4 x) { return 1; }\n");
+    effect("\xEF\xBB\xBF\nint PLUG_change(inout vec4 x) { return 1; }\n");
+    link_valid();
+    CHECK_SAID("a.frag:1:5: error", "plug-not-void");
+    CHECK_SAID("b.frag:2:5: error", "plug-not-void");
+}
+
 int main(void) {
     test_errors();
     test_arity_message();
@@ -194,5 +205,6 @@ int main(void) {
     test_attached_forward();
     test_all_stages();
     test_kept_text();
+    test_byte_order_mark();
     return finish();
 }

@@ -150,6 +150,30 @@ static void test_shared_helper(void) {
     CHECK_HAS(r->fragment, "float plr1_help() { return plr1_K + plr1_state; }");
 }
 
+/* A macro of the base or the library leaves members of effects alone. */
+static void test_macro_like_member(void) {
+    begin();
+    library("#define glow (0.25)\n");
+    base("#define heat (c.r + 1.0)\nstruct Own { float heat; };\nout vec4 c;\n"
+         "void main() {\n  c = vec4(1.0);\n  c.g = heat + glow;\n  /* PLUG: change (c) */\n}\n");
+    effect("struct Mine { float heat, glow; };\n"
+           "void PLUG_change(inout vec4 x) { Mine m = Mine(0.25, 0.5); m.heat = m.glow; x.r = "
+           "m.heat; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "#define plr_base_heat (c.r + 1.0)");
+    CHECK_HAS(r->fragment, "c.g = plr_base_heat + plr_lib_glow;");
+    CHECK_HAS(r->fragment, "m.heat = m.glow;");
+    char text[64];
+    plr_program_demangle(r->program, "plr_base_heat and plr_lib_glow", text, sizeof text);
+    CHECK_STR(text, "heat and glow");
+    begin();
+    base("#define heat 0.5\nout vec4 c;\nvoid main() { c = vec4(heat);\n  /* PLUG: change (c) "
+         "*/\n}\n");
+    effect("void PLUG_change(inout vec4 x) { float heat = 0.25; x.r = heat; }\n");
+    r = link_valid();
+    CHECK_HAS(r->fragment, "#define heat 0.5");
+}
+
 static void test_macro_in_order(void) {
     begin();
     base(BASE);
@@ -430,6 +454,7 @@ int main(void) {
     test_units_share();
     test_own_unit_first();
     test_shared_helper();
+    test_macro_like_member();
     test_macro_in_order();
     test_provider();
     test_struct_through_chain();

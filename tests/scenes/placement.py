@@ -139,4 +139,16 @@ def mistakes():
                     fog((1, 128 / 255, 0), ALPHA))
 
 
+@suite.case
+def unknown_target():
+    "a target that names no effect is told, with the nearest name; one that is not in this scene is not"
+    for target, told in (("OpacityMapVolumeStlye", 'did you mean "OpacityMapVolumeStyle"'), ("SpotLight", None)):
+        text = front_scene(volume(DATA, MAP, effect(RED_HALF, f'target "{target}"')))
+        messages = suite.render(text, "--probe", "8,8").messages()
+        suite.equal(f"{target}: codes", [m[5] for m in messages], ["unknown-target"] if told else [])
+        if told:
+            line = next(i for i, l in enumerate(text.splitlines(), 1) if "Effect" in l)
+            suite.check(f"{target}: place and words", messages[0][1] == line and told in messages[0][4], messages)
+
+
 suite.run()
