@@ -121,9 +121,8 @@ bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags 
 
 /* ---- files ---- */
 
-static void flip_rows(plr_image *image) {
-    size_t row = (size_t)image->width * image->components * plr_image_sample_size(image->type);
-    char *low = image->samples, *high = low + row * (image->height - 1), piece[4096];
+static void flip_slice(char *low, size_t row, size_t height) {
+    char *high = low + row * (height - 1), piece[4096];
     for (; low < high; low += row, high -= row)
         for (size_t done = 0; done < row;) {
             size_t part = row - done < sizeof piece ? row - done : sizeof piece;
@@ -132,6 +131,18 @@ static void flip_rows(plr_image *image) {
             memcpy(high + done, piece, part);
             done += part;
         }
+}
+
+/* Of all levels and slices. */
+static void flip_rows(plr_image *image) {
+    char *at = image->samples;
+    for (uint32_t level = 0; level <= image->mipmaps; level++) {
+        size_t pixel = image->components * plr_image_sample_size(image->type);
+        size_t row = halved(image->width, level) * pixel, height = halved(image->height, level);
+        size_t slices = image->cube ? image->depth : halved(image->depth, level);
+        for (size_t i = 0; i < slices; i++, at += row * height)
+            flip_slice(at, row, height);
+    }
 }
 
 /* Float data as they are, integers as fractions of their type's greatest value or of the declared
@@ -183,15 +194,24 @@ static bool decode_nrrd(const char *data, size_t length, plr_place place, plr_im
     return ok;
 }
 
+static const struct {
+    bool (*is)(const char *, size_t);
+    const char *(*decode)(const char *, size_t, plr_image *);
+} formats[] = {{plr_image_is_jpeg, plr_image_decode_jpeg},
+               {plr_image_is_hdr, plr_image_decode_hdr},
+               {plr_image_is_exr, plr_image_decode_exr},
+               {plr_image_is_dds, plr_image_decode_dds}};
+
 bool plr_image_decode(const char *data, size_t length, plr_place place, plr_image *image,
                       plr_diags *diags) {
     memset(image, 0, sizeof *image);
     if (plr_volume_sniff(data, length) == PLR_VOLUME_NRRD)
         return decode_nrrd(data, length, place, image, diags);
-    const char *fault = plr_image_is_jpeg(data, length) ? plr_image_decode_jpeg(data, length, image)
-                        : plr_image_is_hdr(data, length)
-                            ? plr_image_decode_hdr(data, length, image)
-                            : plr_image_decode_stb(data, length, image);
+    const char *(*decode)(const char *, size_t, plr_image *) = plr_image_decode_stb;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (formats[i].is(data, length))
+            decode = formats[i].decode;
+    const char *fault = decode(data, length, image);
     if (fault) {
         plr_diags_add(diags, PLR_CODE_BAD_IMAGE, place, "this image cannot be read: %s", fault);
         return false;

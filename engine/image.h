@@ -1,5 +1,6 @@
-/* Images in memory: reading (PNG of 8 and 16 bits, JPEG, Radiance HDR, BMP, TGA, GIF; NRRD of one
- * slice by the volume reader), pixel fields, single samples. docs/volumes.md says what is read. */
+/* Images in memory: reading (PNG of 8 and 16 bits, JPEG, Radiance HDR, OpenEXR, DDS, BMP, TGA, GIF;
+ * NRRD of one slice by the volume reader), pixel fields, single samples. docs/images.md says what
+ * is read. */
 #ifndef PLR_ENGINE_IMAGE_H
 #define PLR_ENGINE_IMAGE_H
 
@@ -25,17 +26,22 @@ typedef struct plr_image {
 size_t plr_image_level_samples(const plr_image *image, uint32_t level);
 size_t plr_image_sample_size(plr_sample_type type);
 
-/* Decodes a file in memory. Limits: 32768 a side, 1 GiB. Faults: bad-image at `place`. */
+/* Decodes a file in memory; DDS files give volumes, cubes and mipmaps too. Limits: 32768 a side,
+ * 1 GiB. Faults: bad-image at `place`. */
 bool plr_image_decode(const char *data, size_t length, plr_place place, plr_image *image,
                       plr_diags *diags);
 /* From an SFImage (width, height, components, pixels; bottom row first) or a PixelTexture3D's image
  * (components, width, height, depth, pixels) as the scene holds it. */
 bool plr_image_from_sfimage(const plr_field *field, plr_image *image, plr_diags *diags);
 bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags *diags);
-/* From a texture node of two dimensions: ImageTexture (the first url that loads), PixelTexture.
- * Needs the scene reader. */
+/* From a texture node of two dimensions: ImageTexture (the first url that loads and is understood),
+ * PixelTexture, MovieTexture (the first frame). The image has one slice. Needs the scene reader. */
 bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,
                             plr_diags *diags);
+/* From a node of a cube map: ComposedCubeMapTexture, ImageCubeMapTexture. Needs the scene reader.
+ */
+bool plr_image_from_cube_node(plr_scene *scene, const plr_node *texture, plr_image *image,
+                              plr_diags *diags);
 /* The sample (x, y, z, component) as a number, 0..1 for UNORM types. */
 double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
 void plr_image_free(plr_image *image);

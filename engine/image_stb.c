@@ -45,7 +45,7 @@ const char *plr_image_decode_stb(const char *data, size_t length, plr_image *ima
         return "the file is too large";
     if (!stbi_info_from_memory(bytes, size, &width, &height, &components) || width < 1 ||
         height < 1)
-        return "it is no PNG, JPEG, BMP, TGA, GIF or HDR file, or damaged";
+        return "it is of no format that is read, or damaged";
     bool deep = stbi_is_16_bit_from_memory(bytes, size);
     const char *fault = check_size((uint64_t)width * (uint64_t)height,
                                    (uint64_t)components * (deep ? 2 : 1), length);

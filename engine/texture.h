@@ -47,6 +47,7 @@ typedef struct plr_texture {
     plr_image image;        /* freed by the upload */
     GLuint name;            /* 0: not uploaded */
     GLuint samplers[2];     /* of the node, by use; 0: not made yet */
+    bool mipmapped;         /* for PLR_USE_SURFACE */
     bool stale_mipmaps;     /* they are made when the texture is bound with them */
 } plr_texture;
 

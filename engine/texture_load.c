@@ -59,6 +59,10 @@ static bool load_image(plr_textures *t, plr_texture *texture) {
     return plr_image_from_texture(t->scene, texture->node, &texture->image, t->diags);
 }
 
+static bool load_cube(plr_textures *t, plr_texture *texture) {
+    return plr_image_from_cube_node(t->scene, texture->node, &texture->image, t->diags);
+}
+
 static bool load_volume(plr_textures *t, plr_texture *texture) {
     plr_volume volume = {0};
     bool fine = plr_volume_from_node(t->scene, texture->node, &volume, t->diags) &&
@@ -107,6 +111,9 @@ static const struct loader {
 } loaders[] = {
     {"ImageTexture", PLR_TEXTURE_2D, false, load_image},
     {"PixelTexture", PLR_TEXTURE_2D, false, load_image},
+    {"MovieTexture", PLR_TEXTURE_2D, false, load_image},
+    {"ComposedCubeMapTexture", PLR_TEXTURE_CUBE, false, load_cube},
+    {"ImageCubeMapTexture", PLR_TEXTURE_CUBE, false, load_cube},
     {"ImageTexture3D", PLR_TEXTURE_3D, false, load_volume},
     {"PixelTexture3D", PLR_TEXTURE_3D, false, load_volume},
     {"ComposedTexture3D", PLR_TEXTURE_3D, false, load_volume},

@@ -1,6 +1,9 @@
 /* Texture nodes of a scene as volumes and images: the one file of the readers that knows scenes. */
 #include "engine/volume_internal.h"
 
+#include "engine/image_internal.h"
+#include "engine/node_file.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,67 +33,6 @@ bool plr_volume_read(plr_scene *scene, const plr_bytes *bytes, plr_place place, 
     return plr_volume_parse(&source, volume);
 }
 
-static plr_place url_place(const plr_field *urls, size_t index) {
-    const plr_origin *origin = &urls->value.strings[index].origin;
-    if (!origin->file)
-        return urls->place;
-    return (plr_place){origin->file, origin->line ? origin->line : 1,
-                       origin->column ? origin->column : 1};
-}
-
-/* The bytes of the first url that loads, and the place of that url. */
-static bool load_urls(plr_scene *scene, const plr_node *node, plr_bytes *bytes, plr_place *place,
-                      plr_diags *diags) {
-    const plr_field *urls = plr_node_field(node, "url");
-    size_t index = 0;
-    if (!urls || urls->type != PLR_MFSTRING || urls->count == 0) {
-        plr_diags_add(diags, PLR_CODE_MISSING_FILE, plr_node_place(node), "%s has no url",
-                      plr_node_type(node));
-        return false;
-    }
-    if (!plr_scene_load_first(scene, urls, true, bytes, &index, diags))
-        return false;
-    *place = url_place(urls, index);
-    return true;
-}
-
-/* ---- images ---- */
-
-/* A field whose value was refused has no value but the value's place; that is reported already. */
-static bool is_refused(const plr_node *texture, const plr_field *image) {
-    plr_place own = plr_node_place(texture);
-    return image && !image->given &&
-           (image->place.line != own.line || image->place.column != own.column);
-}
-
-/* A text header tells its own lines, a picture has none: its faults are reported at the url. */
-static bool decode_bytes(const plr_bytes *bytes, plr_place place, plr_image *image,
-                         plr_diags *diags) {
-    if (plr_volume_sniff(bytes->data, bytes->length) == PLR_VOLUME_NRRD)
-        place = (plr_place){bytes->name, 0, 0};
-    return plr_image_decode(bytes->data, bytes->length, place, image, diags);
-}
-
-bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,
-                            plr_diags *diags) {
-    memset(image, 0, sizeof *image);
-    const plr_field *pixels = plr_node_field(texture, "image");
-    if (plr_node_is(texture, "PixelTexture"))
-        return !is_refused(texture, pixels) && plr_image_from_sfimage(pixels, image, diags);
-    if (!plr_node_is(texture, "ImageTexture")) {
-        plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(texture),
-                      "%s is not read as an image", plr_node_type(texture));
-        return false;
-    }
-    plr_bytes bytes;
-    plr_place place;
-    if (!load_urls(scene, texture, &bytes, &place, diags))
-        return false;
-    bool ok = decode_bytes(&bytes, place, image, diags);
-    plr_bytes_free(&bytes);
-    return ok;
-}
-
 /* Takes the samples of the image. Integers keep their type's whole range, floats that of the data.
  */
 static void volume_from_image(plr_image *image, plr_volume *volume) {
@@ -118,25 +60,8 @@ static plr_sample_type wider(plr_sample_type a, plr_sample_type b) {
     return a > b ? a : b;
 }
 
-static void convert_slice(const plr_image *slice, plr_sample_type type, void *out) {
-    size_t count = (size_t)slice->width * slice->height * slice->components;
-    static const size_t sizes[] = {[PLR_UNORM8] = 1, [PLR_UNORM16] = 2, [PLR_FLOAT32] = 4};
-    const uint8_t *bytes = slice->samples;
-    const uint16_t *words = slice->samples;
-    if (slice->type == type)
-        memcpy(out, slice->samples, count * sizes[type]);
-    else if (type == PLR_UNORM16)
-        for (size_t i = 0; i < count; i++)
-            ((uint16_t *)out)[i] = (uint16_t)(bytes[i] * 257u);
-    else
-        for (size_t i = 0; i < count; i++)
-            ((float *)out)[i] =
-                (float)(slice->type == PLR_UNORM8 ? bytes[i] / 255.0 : words[i] / 65535.0);
-}
-
 static bool stack_slices(const plr_image *slices, size_t count, plr_place place, plr_image *image,
                          plr_diags *diags) {
-    static const size_t sizes[] = {[PLR_UNORM8] = 1, [PLR_UNORM16] = 2, [PLR_FLOAT32] = 4};
     *image = slices[0];
     image->samples = NULL;
     image->depth = (uint32_t)count;
@@ -144,14 +69,16 @@ static bool stack_slices(const plr_image *slices, size_t count, plr_place place,
         image->type = wider(image->type, slices[i].type);
     if (!check_image_size(image, place, diags))
         return false;
-    size_t step = (size_t)image->width * image->height * image->components * sizes[image->type];
+    size_t step = (size_t)image->width * image->height * image->components *
+                  plr_image_sample_size(image->type);
     image->samples = malloc(step * count);
     if (!image->samples) {
         plr_diags_add(diags, PLR_CODE_NO_MEMORY, place, "there is not enough memory");
         return false;
     }
     for (size_t i = 0; i < count; i++)
-        convert_slice(&slices[i], image->type, (char *)image->samples + i * step);
+        plr_image_convert(&slices[i], image->components, image->type,
+                          (char *)image->samples + i * step);
     return true;
 }
 
@@ -206,7 +133,7 @@ static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_volume *v
     (void)scene;
     plr_image image;
     const plr_field *field = plr_node_field(texture, "image");
-    if (is_refused(texture, field) || !plr_image_from_image3d(field, &image, diags))
+    if (plr_image_is_refused(texture, field) || !plr_image_from_image3d(field, &image, diags))
         return false;
     bool ok = check_image_size(&image, plr_node_place(texture), diags);
     if (ok)
@@ -220,8 +147,10 @@ static const struct {
     const char *magic, *name;
     size_t offset, length;
 } other_formats[] = {
-    {"DDS ", "DDS", 0, 4},     {"\xabKTX ", "KTX", 0, 5}, {"DICM", "DICOM", 128, 4},
-    {"\x89HDF", "HDF5", 0, 4}, {"# vtk", "VTK", 0, 5},    {"v/1\x01", "OpenEXR", 0, 4},
+    {"\xabKTX ", "KTX", 0, 5},
+    {"DICM", "DICOM", 128, 4},
+    {"\x89HDF", "HDF5", 0, 4},
+    {"# vtk", "VTK", 0, 5},
 };
 
 static const char *name_other_format(const plr_bytes *bytes) {
@@ -233,9 +162,10 @@ static const char *name_other_format(const plr_bytes *bytes) {
     return NULL;
 }
 
-/* By content: NRRD, NIfTI, else a picture as a volume of one slice. */
-static bool from_bytes(plr_scene *scene, const plr_bytes *bytes, plr_place place,
-                       plr_volume *volume, plr_diags *diags) {
+/* By content: NRRD, NIfTI, else a picture: DDS volumes, others as a volume of one slice. */
+static bool from_bytes(void *user, plr_scene *scene, const plr_bytes *bytes, plr_place place,
+                       plr_diags *diags) {
+    plr_volume *volume = user;
     const char *other = name_other_format(bytes);
     if (other) {
         plr_diags_add(diags, PLR_CODE_BAD_VOLUME, place,
@@ -249,7 +179,10 @@ static bool from_bytes(plr_scene *scene, const plr_bytes *bytes, plr_place place
     plr_image image;
     if (!plr_image_decode(bytes->data, bytes->length, place, &image, diags))
         return false;
-    bool ok = check_image_size(&image, place, diags);
+    bool ok = !image.cube && check_image_size(&image, place, diags);
+    if (image.cube)
+        plr_diags_add(diags, PLR_CODE_BAD_VOLUME, place, "%s is a cube map, not a volume",
+                      bytes->name);
     if (ok)
         volume_from_image(&image, volume);
     plr_image_free(&image);
@@ -258,13 +191,8 @@ static bool from_bytes(plr_scene *scene, const plr_bytes *bytes, plr_place place
 
 static bool from_urls(plr_scene *scene, const plr_node *texture, plr_volume *volume,
                       plr_diags *diags) {
-    plr_bytes bytes;
-    plr_place place;
-    if (!load_urls(scene, texture, &bytes, &place, diags))
-        return false;
-    bool ok = from_bytes(scene, &bytes, place, volume, diags);
-    plr_bytes_free(&bytes);
-    return ok;
+    return plr_node_bool(texture, "load") &&
+           plr_node_file(scene, texture, from_bytes, volume, diags);
 }
 
 static const struct {

@@ -131,11 +131,10 @@ static void test_files(void) {
 
 static void test_file_faults(void) {
     check_fault("ImageTexture3D { url \"a.dds\" }",
-                "scene.x3dv:4:36 error a.dds is a file of format DDS, which is not read; convert "
-                "it to NRRD or NIfTI");
+                "scene.x3dv:4:36 error this image cannot be read: it is cut off");
     check_fault("ImageTexture3D { url \"a.raw\" }",
-                "scene.x3dv:4:36 error this image cannot be read: it is no PNG, JPEG, BMP, TGA, "
-                "GIF or HDR file, or damaged");
+                "scene.x3dv:4:36 error this image cannot be read: it is of no format "
+                "that is read, or damaged");
     check_fault("ImageTexture3D { }", "scene.x3dv:4:14 error ImageTexture3D has no url");
     write_file("a.nrrd", "NRRD0004\ntype: uchar\ndimension: x\n", 34);
     check_fault("ImageTexture3D { url \"a.nrrd\" }", "a.nrrd:3:12 error 'x' is not an integer");
