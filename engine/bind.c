@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "engine/projector.h"
+
 /* ---- GLSL types and the field types that fit them ---- */
 
 typedef enum shape {
@@ -173,10 +175,50 @@ static void v_volume_index(const context *c, float *out) {
     out[0] = (float)c->volume->index;
 }
 
+static void v_eye_to_shadow(const context *c, float *out) {
+    plr_matrix to_world;
+    plr_matrix_invert(&c->values->frame->view, &to_world);
+    plr_matrix m = plr_matrix_multiply(&c->binding->shadow->from_world, &to_world);
+    put(&m, out);
+}
+static void v_shadow_axis(const context *c, float *out) {
+    const double *axis = c->binding->shadow->axis, *m = c->values->frame->view.m;
+    for (int row = 0; row < 3; row++)
+        out[row] = (float)(m[row] * axis[0] + m[4 + row] * axis[1] + m[8 + row] * axis[2]);
+}
+static void v_shadow_texel(const context *c, float *out) {
+    out[0] = (float)c->binding->shadow->texel;
+}
+static void v_shadow_depths(const context *c, float *out) {
+    out[0] = (float)c->binding->shadow->depths[0];
+    out[1] = (float)c->binding->shadow->depths[1];
+}
+static void v_shadow_offset(const context *c, float *out) {
+    out[0] = (float)c->binding->shadow->offset;
+}
+static void v_shadow_depth_bias(const context *c, float *out) {
+    out[0] = (float)c->binding->shadow->depth_bias;
+}
+
+/* From eye space to the projector's clip space, from 0 to 1 in s, t and r. */
+static void v_eye_to_projector(const context *c, float *out) {
+    const plr_node *node = c->binding->node;
+    const plr_node *projector = node ? plr_node_child(node, "projector") : NULL;
+    plr_matrix projection, from_world, to_world, scale = plr_matrix_scale(0.5, 0.5, 0.5);
+    plr_matrix product = plr_matrix_translation(0.5, 0.5, 0.5);
+    plr_projector_matrices(c->values->view, projector, &projection, &from_world);
+    plr_matrix_invert(&c->values->frame->view, &to_world);
+    const plr_matrix *steps[] = {&scale, &projection, &from_world, &to_world};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        product = plr_matrix_multiply(&product, steps[i]);
+    put(&product, out);
+}
+
 typedef enum owner {
     OWNER_HOST,   /* base and library */
     OWNER_NODE,   /* a built-in effect with a node or the headlight */
     OWNER_VOLUME, /* a built-in effect of a volume */
+    OWNER_SHADOW, /* the effect of a shadow map */
 } owner;
 
 static const struct known {
@@ -204,6 +246,7 @@ static const struct known {
     {"emptyDepth", OWNER_HOST, v_empty_depth},
     {"transparencyLeft", OWNER_HOST, v_transparency_left},
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
+    {"eyeToProjector", OWNER_NODE, v_eye_to_projector},
     {"eyeToNode", OWNER_NODE, v_eye_to_node},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
     {"dimensions", OWNER_VOLUME, v_dimensions},
@@ -211,13 +254,20 @@ static const struct known {
     {"referenceLength", OWNER_VOLUME, v_reference},
     {"gradientUnit", OWNER_VOLUME, v_gradient_unit},
     {"volumeIndex", OWNER_VOLUME, v_volume_index},
+    {"eyeToShadow", OWNER_SHADOW, v_eye_to_shadow},
+    {"shadowAxis", OWNER_SHADOW, v_shadow_axis},
+    {"shadowTexel", OWNER_SHADOW, v_shadow_texel},
+    {"shadowDepths", OWNER_SHADOW, v_shadow_depths},
+    {"shadowOffset", OWNER_SHADOW, v_shadow_offset},
+    {"shadowDepthBias", OWNER_SHADOW, v_shadow_depth_bias},
 };
 
 static const struct known *find_known(const char *name, const plr_binding *binding) {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        bool fits = known[i].owner == OWNER_HOST   ? !binding
-                    : known[i].owner == OWNER_NODE ? binding != NULL
-                                                   : binding && binding->volume != PLR_NO_EFFECT;
+        bool fits = known[i].owner == OWNER_HOST     ? !binding
+                    : known[i].owner == OWNER_NODE   ? binding != NULL
+                    : known[i].owner == OWNER_SHADOW ? binding && binding->shadow
+                                                     : binding && binding->volume != PLR_NO_EFFECT;
         if (fits && strcmp(known[i].name, name) == 0)
             return &known[i];
     }
@@ -375,6 +425,13 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
         slot->source = SLOT_VOXELS;
         return true;
     }
+    if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->shadow &&
+        strcmp(symbol->name, "shadowMap") == 0) {
+        slot->source = SLOT_TEXTURE;
+        slot->texture = binding->shadow->texture;
+        slot->use = PLR_USE_VOLUME;
+        return true;
+    }
     if (slot->type->shape == SHAPE_SAMPLER && builtin && strcmp(symbol->name, "self") == 0) {
         slot->source = SLOT_TEXTURE;
         slot->texture = plr_textures_get(k->textures, binding->node);
@@ -475,6 +532,13 @@ bool plr_bind_needs(const plr_slots *slots, const char *name) {
         if (slots->items[i].known && strcmp(slots->items[i].known->name, name) == 0)
             return true;
     return false;
+}
+
+const plr_texture *plr_bind_next_texture(const plr_slots *slots, size_t *at) {
+    for (; *at < slots->count; ++*at)
+        if (slots->items[*at].source == SLOT_TEXTURE && slots->items[*at].texture)
+            return slots->items[(*at)++].texture;
+    return NULL;
 }
 
 bool plr_bind_reads(const plr_slots *slots, const plr_texture *texture) {

@@ -16,6 +16,17 @@ typedef struct plr_frame {
     bool reversed_depth;
 } plr_frame;
 
+/* What the effect of a shadow map needs to read it, in the picture that is drawn. */
+typedef struct plr_shadow_values {
+    plr_texture *texture;
+    plr_matrix from_world; /* to 0..1 in the map; of a cube: to the light's place */
+    double axis[3];        /* across the map, in the world, length 1 */
+    double texel;          /* a texel's side, divided by w; of a cube: at distance 1 */
+    double depths[2];      /* of a cube: depth is the first plus the second over the distance */
+    double offset;         /* 0: the depths in the map are set back */
+    double depth_bias;
+} plr_shadow_values;
+
 /* A volume made ready. */
 typedef struct plr_volume_state {
     plr_node *node;
@@ -32,7 +43,8 @@ typedef struct plr_volume_state {
 /* Everything that the value of a uniform may depend on. */
 typedef struct plr_values {
     const plr_frame *frame;
-    plr_matrix to_world; /* of what is drawn */
+    const struct plr_view *view; /* that the frame shows; for projectors */
+    plr_matrix to_world;         /* of what is drawn */
     const plr_volume_state *volumes;
     size_t volume_count;
     plr_texture *default_ramp; /* what a transfer function of NULL stands for */
@@ -59,6 +71,8 @@ void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *rec
                    const plr_program *program, const plr_built *built, plr_slots *slots);
 /* Whether any slot takes a value that the engine knows by this name ("gradientUnit"). */
 bool plr_bind_needs(const plr_slots *slots, const char *name);
+/* The textures of the samplers, one a call, from *at = 0 on; NULL after the last. */
+const plr_texture *plr_bind_next_texture(const plr_slots *slots, size_t *at);
 /* Whether any sampler reads this texture. */
 bool plr_bind_reads(const plr_slots *slots, const plr_texture *texture);
 /* Sets all uniforms of the program in use and binds its textures. Needs GL. */

@@ -41,6 +41,21 @@ void plr_frame_plan(const plr_view *view, const plr_viewpoint *viewpoint, int wi
         frame->projection = plr_matrix_reversed_depth(&frame->projection);
 }
 
+/* OpenGL 3.3, table 3.19: rows are s and t of a face, and what it faces; t runs up in what is
+ * drawn, and the eye looks along -z. */
+plr_matrix plr_frame_cube_face(const double place[3], int face) {
+    static const signed char rows[6][3][3] = {
+        {{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}, {{0, 0, 1}, {0, -1, 0}, {1, 0, 0}},
+        {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},   {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+        {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}},  {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}};
+    plr_matrix turn = plr_matrix_identity();
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            turn.m[column * 4 + row] = rows[face][row][column];
+    plr_matrix move = plr_matrix_translation(-place[0], -place[1], -place[2]);
+    return plr_matrix_multiply(&turn, &move);
+}
+
 /* The radical inverse of Halton's sequence: sample points that fill the pixel evenly. */
 static double radical_inverse(int index, int base) {
     double result = 0, part = 1;

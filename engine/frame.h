@@ -20,6 +20,9 @@ void plr_frame_depths(const plr_view *view, const plr_matrix *world_to_eye, bool
 /* The frame of a viewpoint: matrices, viewport from (0, 0), time. */
 void plr_frame_plan(const plr_view *view, const plr_viewpoint *viewpoint, int width, int height,
                     bool reversed, plr_frame *frame);
+/* From world space to the camera in `place` that looks at a face of a cube map, 0 to 5 in the order
+ * of GL: what is drawn with 90 degrees is read back by directions of the world. */
+plr_matrix plr_frame_cube_face(const double place[3], int face);
 /* Shifts the frame to one of several samples of its pixels. */
 void plr_frame_jitter(plr_frame *frame, int sample, int samples);
 

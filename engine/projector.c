@@ -135,7 +135,8 @@ static void add_surface(extent *e, const plr_surface *surface,
 static extent scene_extent(const plr_view *view, const plr_matrix *world_to_projector) {
     extent e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < view->surface_count; i++)
-        if (view->surfaces[i].model->mesh.vertex_count && casts_shadow(view->flat.shapes.items[i].node))
+        if (view->surfaces[i].model->mesh.vertex_count &&
+            casts_shadow(view->flat.shapes.items[i].node))
             add_surface(&e, &view->surfaces[i], world_to_projector);
     for (int axis = 0; axis < 3; axis++) {
         if (!(e.most[axis] >= e.least[axis]) || !isfinite(e.most[axis] - e.least[axis]))
@@ -194,9 +195,9 @@ static plr_matrix spot(const plr_view *view, const plr_node *light, plr_matrix *
     return square_perspective(angle, depths);
 }
 
-/* All six directions share the distances: the nearest one is not known from a box. */
-static plr_matrix point(const plr_view *view, const plr_node *light, plr_matrix *to_eye) {
-    *to_eye = place_light(view, light, "location");
+/* All six directions share the distances: the nearest one is not known from a box. `to_eye` has the
+ * axes of the world. */
+static plr_matrix around(const plr_view *view, const plr_node *light, const plr_matrix *to_eye) {
     extent e = scene_extent(view, to_eye);
     double far = plr_node_number(light, "projectionFar"), farthest = 0;
     double near = plr_node_number(light, "projectionNear");
@@ -206,6 +207,19 @@ static plr_matrix point(const plr_view *view, const plr_node *light, plr_matrix 
     near = near > 0 && near < far ? near : far * 1e-3;
     const double depths[2] = {near, far};
     return square_perspective(1.57079632679490, depths);
+}
+
+static plr_matrix point(const plr_view *view, const plr_node *light, plr_matrix *to_eye) {
+    *to_eye = place_light(view, light, "location");
+    return around(view, light, to_eye);
+}
+
+plr_matrix plr_projector_cube(const plr_view *view, const plr_node *light, double place[3]) {
+    plr_matrix to_eye = place_light(view, light, "location"), to_world;
+    plr_matrix_invert(&to_eye, &to_world);
+    plr_matrix_point(&to_world, (double[]){0, 0, 0}, place);
+    to_eye = plr_matrix_translation(-place[0], -place[1], -place[2]);
+    return around(view, light, &to_eye);
 }
 
 static plr_matrix perspective_view(const plr_view *view, const plr_node *node, plr_matrix *to_eye) {

@@ -17,4 +17,8 @@
 bool plr_projector_matrices(const plr_view *view, const plr_node *projector, plr_matrix *projection,
                             plr_matrix *world_to_projector);
 
+/* The projection to each face of a cube around a light that has a location, and its place in the
+ * world: distances as of a PointLight. */
+plr_matrix plr_projector_cube(const plr_view *view, const plr_node *light, double place[3]);
+
 #endif

@@ -15,6 +15,7 @@ typedef struct plr_binding {
     plr_matrix to_world; /* of the node */
     bool in_eye_space;   /* to_world is the identity of eye space (headlight) */
     size_t volume;       /* index of the volume that it belongs to, or PLR_NO_EFFECT */
+    const struct plr_shadow_values *shadow; /* of an effect that reads a shadow map; or NULL */
 } plr_binding;
 
 typedef struct plr_recipe {

@@ -1,7 +1,12 @@
 #include "engine/state.h"
 
-static const GLenum switches[] = {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST,
-                                  GL_TEXTURE_CUBE_MAP_SEAMLESS};
+static const GLenum switches[] = {GL_BLEND,
+                                  GL_DEPTH_TEST,
+                                  GL_CULL_FACE,
+                                  GL_SCISSOR_TEST,
+                                  GL_TEXTURE_CUBE_MAP_SEAMLESS,
+                                  GL_DEPTH_CLAMP,
+                                  GL_POLYGON_OFFSET_FILL};
 static const GLenum blend_names[] = {GL_BLEND_SRC_RGB,      GL_BLEND_DST_RGB,
                                      GL_BLEND_SRC_ALPHA,    GL_BLEND_DST_ALPHA,
                                      GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
@@ -45,6 +50,12 @@ void plr_gl_state_save(const plr_gl *gl, plr_gl_state *state) {
         state->enabled[i] = gl->IsEnabled(switches[i]);
     for (int i = 0; i < 6; i++)
         gl->GetIntegerv(blend_names[i], &state->blend[i]);
+    if (gl->ClipControl) {
+        gl->GetIntegerv(GL_CLIP_ORIGIN, &state->clip_origin);
+        gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &state->clip_depth);
+    }
+    gl->GetFloatv(GL_POLYGON_OFFSET_FACTOR, &state->polygon_offset[0]);
+    gl->GetFloatv(GL_POLYGON_OFFSET_UNITS, &state->polygon_offset[1]);
     gl->GetIntegerv(GL_DEPTH_FUNC, &state->depth_function);
     gl->GetIntegerv(GL_CULL_FACE_MODE, &state->cull_face);
     gl->GetIntegerv(GL_FRONT_FACE, &state->front_face);
@@ -68,6 +79,9 @@ void plr_gl_state_restore(const plr_gl *gl, const plr_gl_state *state) {
     gl->BlendFuncSeparate((GLenum)state->blend[0], (GLenum)state->blend[1], (GLenum)state->blend[2],
                           (GLenum)state->blend[3]);
     gl->BlendEquationSeparate((GLenum)state->blend[4], (GLenum)state->blend[5]);
+    if (gl->ClipControl)
+        gl->ClipControl((GLenum)state->clip_origin, (GLenum)state->clip_depth);
+    gl->PolygonOffset(state->polygon_offset[0], state->polygon_offset[1]);
     gl->DepthFunc((GLenum)state->depth_function);
     gl->CullFace((GLenum)state->cull_face);
     gl->FrontFace((GLenum)state->front_face);

@@ -6,7 +6,7 @@
 
 enum {
     PLR_SAVED_UNITS = 32, /* texture units of one program at most */
-    PLR_SAVED_SWITCHES = 5
+    PLR_SAVED_SWITCHES = 7
 };
 
 typedef struct plr_gl_state {
@@ -18,6 +18,8 @@ typedef struct plr_gl_state {
     } units[PLR_SAVED_UNITS];
     GLboolean enabled[PLR_SAVED_SWITCHES];
     GLint blend[6];
+    GLint clip_origin, clip_depth; /* 0 where the context has no ClipControl */
+    GLfloat polygon_offset[2];
     GLint depth_function, cull_face, front_face, unpack_alignment;
     GLboolean depth_mask, color_mask[4];
     GLdouble clear_depth;

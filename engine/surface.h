@@ -4,6 +4,14 @@
 
 #include "engine/view.h"
 
+/* Texture coordinates in use: castle_TexCoord<index> of the program. */
+typedef struct plr_channel {
+    unsigned unit;              /* of the geometry's coordinates */
+    plr_node *node, *transform; /* texture coordinates and their transformation, or NULL */
+    int dimensions;             /* of the texture that they were asked for */
+    bool projective, reflects;
+} plr_channel;
+
 typedef struct plr_shape {
     plr_view *view;
     plr_model *model; /* its mesh is built */
@@ -13,6 +21,8 @@ typedef struct plr_shape {
     plr_diags *diags;
     bool lit;        /* has normals: light may change it */
     size_t material; /* attaches further built-in effects to the material's; 0: none */
+    plr_channel channels[PLR_MESH_TEX_UNITS];
+    size_t channel_count;
 } plr_shape;
 
 /* A built-in effect by path, named as messages and targets say, bound to a node (NULL: to none).

@@ -48,7 +48,7 @@ static GLuint upload_buffer(plr_view *view, plr_model *model, GLenum target, con
 }
 
 /* What the mesh has for an attribute of this name. */
-static const float *attribute_data(const plr_mesh *mesh, const char *name, int *components) {
+static const float *attribute_data(plr_mesh *mesh, const char *name, int *components) {
     const struct {
         const char *name;
         int components;
@@ -62,10 +62,13 @@ static const float *attribute_data(const plr_mesh *mesh, const char *name, int *
             return standard[i].data;
         }
     unsigned unit;
-    if (sscanf(name, "castle_MultiTexCoord%u", &unit) == 1) {
-        *components = 4;
+    *components = 4;
+    if (sscanf(name, "castle_MultiTexCoord%u", &unit) == 1)
         return plr_mesh_tex_coords(mesh, unit);
-    }
+    if (strcmp(name, "plugray_BoxCoord") == 0)
+        return plr_mesh_box_coords(mesh);
+    if (strcmp(name, "plugray_PlaneCoord") == 0)
+        return plr_mesh_plane_coords(mesh);
     for (size_t i = 0; i < mesh->attribute_count; i++)
         if (strcmp(name, mesh->attributes[i].name) == 0) {
             *components = mesh->attributes[i].components;
@@ -87,7 +90,7 @@ static void set_pointer(const plr_gl *gl, GLuint location, int components) {
 
 static void upload_mesh(plr_view *view, plr_model *model) {
     const plr_gl *gl = &view->engine->gl;
-    const plr_mesh *mesh = &model->mesh;
+    plr_mesh *mesh = &model->mesh;
     gl->GenVertexArrays(1, &model->vertex_array);
     gl->BindVertexArray(model->vertex_array);
     const int most = (int)(sizeof model->buffers / sizeof *model->buffers) - 1;
@@ -132,7 +135,7 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
     bool mirrored = plr_matrix_determinant3(&surface->to_world) < 0;
     gl->FrontFace(model->mesh.clockwise != mirrored ? GL_CW : GL_CCW);
     gl->UseProgram(model->pass.built->name);
-    plr_values values = {.frame = frame, .to_world = surface->to_world};
+    plr_values values = {.frame = frame, .view = view, .to_world = surface->to_world};
     plr_bind_set(gl, &view->textures, &model->pass.slots, &values);
     gl->BindVertexArray(model->vertex_array);
     gl->DrawElements(kinds[model->mesh.kind], (GLsizei)model->mesh.index_count, GL_UNSIGNED_INT,

@@ -6,6 +6,7 @@
 #include "engine/dialect.h"
 #include "engine/frame.h"
 #include "engine/state.h"
+#include "engine/targets.h"
 #include "engine/unreached.h"
 #include "engine/volume.h"
 
@@ -35,6 +36,7 @@ static void upload(plr_view *view) {
     const plr_gl *gl = &view->engine->gl;
     plr_phase start = plr_clock();
     plr_world_find(view);
+    plr_targets_find(view);
     plr_textures_upload(&view->textures);
     gl->GenVertexArrays(1, &view->empty_vertex_array);
     gl->GenFramebuffers(1, &view->color_only);
@@ -54,6 +56,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
     plr_phase start = plr_clock();
     view->desc.dialect = plr_dialect(view->scene, &view->flat, view->desc.dialect, diags);
     plr_world_prepare(view, diags);
+    plr_targets_prepare(view, diags);
     plr_unreached_report(&view->composer);
     plr_phase end = plr_clock();
     plr_phase link = {view->composer.link_cpu_ms, view->composer.link_wall_ms};
@@ -102,6 +105,7 @@ void plr_view_destroy(plr_view **view) {
     plr_view *v = *view;
     if (!v)
         return;
+    plr_targets_finish(v);
     plr_world_finish(v);
     if (v->engine && v->color_only) {
         plr_framebuffer_destroy(&v->framebuffer);
@@ -143,6 +147,8 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     float *one = samples > 1 ? malloc(count * sizeof *one) : picture->pixels;
     plr_frame frame;
     bool fine = one != NULL;
+    if (fine)
+        plr_targets_draw(view, NULL);
     for (int sample = 0; fine && sample < samples; sample++) {
         plan(view, desc, plr_frame_reversed(view), &frame);
         plr_frame_jitter(&frame, sample, samples);
@@ -219,6 +225,10 @@ bool plr_view_draw_here(plr_view *view, const double *projection, const double *
         plan(view, &desc, false, &frame);
         matrix_from(&frame.projection, projection);
         matrix_from(&frame.view, camera);
+        plr_targets_draw(view, &frame);
+        plr_gl_state_restore(gl, &state);
+        double depths[2];
+        plr_surfaces_depths(view, &frame.view, depths); /* sorts for the host's camera */
         frame.viewport[0] = state.viewport[0];
         frame.viewport[1] = state.viewport[1];
         GLuint host = (GLuint)state.draw_framebuffer;

@@ -48,6 +48,7 @@ typedef struct plr_model {
     plr_pass pass;
     plr_mesh mesh;
     bool blends;
+    struct plr_model *caster; /* the same into shadow maps; NULL: casts none, or none is drawn */
     GLuint vertex_array, buffers[40];
     int buffer_count;
 } plr_model;
@@ -64,6 +65,20 @@ typedef struct plr_background {
     plr_pass pass; /* of more than one colour */
 } plr_background;
 
+/* The lights that have a shadow map (engine/shadows.h). */
+typedef struct plr_shadows {
+    struct plr_shadow **items;
+    size_t count, capacity;
+} plr_shadows;
+
+/* Textures that are drawn before the picture (engine/targets.h). */
+typedef struct plr_targets {
+    struct plr_target **items;
+    size_t count, capacity;
+    size_t *order; /* of drawing */
+    size_t order_count, order_capacity;
+} plr_targets;
+
 /* What is drawn together: the scene, or what a RenderedTexture shows in its place. A view has the
  * fields of the one that it is at as its own (plr_view_enter). */
 #define PLR_WORLD_FIELDS                                                                           \
@@ -76,7 +91,8 @@ typedef struct plr_background {
     plr_surface *surfaces;                                                                         \
     size_t surface_count;                                                                          \
     plr_surface **blending; /* the translucent ones */                                             \
-    size_t blending_count;
+    size_t blending_count;                                                                         \
+    plr_shadows shadows;
 
 typedef struct plr_world {
     PLR_WORLD_FIELDS
@@ -97,6 +113,8 @@ struct plr_view {
             PLR_WORLD_FIELDS
         };
     };
+    plr_world *entered; /* the world that the view is at; NULL: the scene */
+    plr_targets targets;
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_view_stats stats;

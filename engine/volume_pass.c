@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine/dialect.h"
+#include "engine/shadows.h"
 #include "engine/volume.h"
 
 /* ---- Data ---- */
@@ -144,7 +145,9 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
         1);
     style_list list = {view, recipe, index, *attached, components, true, diags};
     add_styles(&list, plr_node_child(state->node, "renderStyle"));
+    size_t from = recipe->effects.count;
     plr_pass_lights(view, recipe, scope, *attached, index);
+    plr_recipe_shadows(view, recipe, from, index, NULL);
 }
 
 /* What a scene may say and is not drawn yet is not passed over in silence. */

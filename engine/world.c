@@ -1,11 +1,12 @@
 /* Worlds: what is drawn together, made ready and freed. */
-#include "engine/view.h"
+#include "engine/shadows.h"
 #include "engine/volume.h"
 
 void plr_view_enter(plr_view *view, plr_world *world) {
     plr_world kept = view->world;
     view->world = *world;
     *world = kept;
+    view->entered = view->entered ? NULL : world;
 }
 
 void plr_world_prepare(plr_view *view, plr_diags *diags) {
@@ -14,6 +15,7 @@ void plr_world_prepare(plr_view *view, plr_diags *diags) {
     plr_background_prepare(view, &view->background);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);
+    plr_casters_prepare(view);
 }
 
 /* The unit of gradients that no author gave is found before the voxels leave main memory. */
@@ -36,10 +38,12 @@ void plr_world_find(plr_view *view) {
         plr_pass_find(view, &view->volumes.casts[i].pass);
     for (size_t i = 0; i < view->model_count; i++)
         plr_pass_find(view, &view->models[i]->pass);
+    plr_casters_find(view);
     find_gradient_units(view);
 }
 
 void plr_world_finish(plr_view *view) {
+    plr_casters_finish(view);
     for (size_t i = 0; i < view->model_count; i++)
         plr_model_finish(view, view->models[i]);
     view->model_count = 0;

@@ -1,0 +1,261 @@
+#include "engine/targets.h"
+
+#include <string.h>
+
+#include "engine/targets_draw.h"
+
+/* So many at most, whatever a scene asks for. */
+enum {
+    MOST_TARGETS = 256
+};
+
+/* ---- Making targets ---- */
+
+static plr_target *push_target(plr_view *view, plr_texture *texture) {
+    plr_target *target = PLR_NEW(&view->arena, plr_target);
+    target->texture = texture;
+    target->node = (plr_node *)texture->node;
+    target->clear = true;
+    *PLR_PUSH(&view->arena, &view->targets) = target;
+    return target;
+}
+
+static plr_world *new_world(plr_view *view, plr_node *scene, plr_diags *diags) {
+    plr_world *world = PLR_NEW(&view->arena, plr_world);
+    plr_flatten_node(&view->arena, view->scene, scene, &view->flat, &world->flat, diags);
+    world->viewpoint = view->viewpoint;
+    return world;
+}
+
+/* A viewpoint that stands in the scene, or nowhere but in the texture. */
+static const plr_viewpoint *find_viewpoint(plr_view *view, const plr_world *world, plr_node *node,
+                                           plr_diags *diags) {
+    const plr_flat *flats[] = {&view->flat, world ? &world->flat : &view->flat};
+    for (int f = 0; f < 2; f++)
+        for (size_t i = 0; i < flats[f]->viewpoints.count; i++)
+            if (flats[f]->viewpoints.items[i].node == node)
+                return &flats[f]->viewpoints.items[i];
+    plr_flat *alone = PLR_NEW(&view->arena, plr_flat);
+    plr_flatten_node(&view->arena, view->scene, node, &(plr_flat){0}, alone, diags);
+    return alone->viewpoints.count ? &alone->viewpoints.items[0] : NULL;
+}
+
+static void prepare_rendered(plr_view *view, plr_target *target, plr_diags *diags) {
+    plr_node *scene = plr_node_child(target->node, "scene");
+    plr_node *viewpoint = plr_node_child(target->node, "viewpoint");
+    plr_node *background = plr_node_child(target->node, "background");
+    if (scene) {
+        target->own = new_world(view, scene, diags);
+        plr_view_enter(view, target->own);
+        plr_world_prepare(view, diags);
+        plr_view_enter(view, target->own);
+    }
+    if (viewpoint)
+        target->viewpoint = find_viewpoint(view, target->own, viewpoint, diags);
+    if (!background)
+        return;
+    target->background = PLR_NEW(&view->arena, plr_background);
+    plr_flat placed;
+    plr_flatten_node(&view->arena, view->scene, background, &(plr_flat){0}, &placed, diags);
+    *target->background = (plr_background){.node = background, .to_world = plr_matrix_identity()};
+    if (background == view->flat.background)
+        target->background->to_world = view->flat.background_to_world;
+    plr_background_prepare(view, target->background);
+}
+
+static bool has_room(const plr_view *view, const plr_node *node, plr_diags *diags) {
+    if (view->targets.count < MOST_TARGETS)
+        return true;
+    if (node)
+        plr_diags_add(diags, PLR_CODE_LIMIT, plr_node_place(node),
+                      "more than %d textures are to be drawn by the engine; this one stays black",
+                      MOST_TARGETS);
+    return false;
+}
+
+static bool is_known(const plr_view *view, const plr_texture *texture) {
+    for (size_t i = 0; i < view->targets.count; i++)
+        if (view->targets.items[i]->texture == texture)
+            return true;
+    return false;
+}
+
+/* "NONE" leaves a texture as it is, that is black. */
+static void read_update(plr_target *target, const plr_node *node) {
+    const char *update = plr_node_string(node, "update");
+    target->once = strcmp(update, "NEXT_FRAME_ONLY") == 0;
+    target->never = !target->once && strcmp(update, "ALWAYS") != 0;
+}
+
+void plr_targets_prepare(plr_view *view, plr_diags *diags) {
+    /* what a target shows may read further textures: the list grows while it is walked */
+    for (size_t i = 0; i < view->textures.list.count; i++) {
+        plr_texture *texture = view->textures.list.items[i];
+        if (!texture->generated || !texture->node || is_known(view, texture) ||
+            !has_room(view, texture->node, diags))
+            continue;
+        if (plr_node_is(texture->node, "GeneratedShadowMap") &&
+            plr_shadow_of_map(view, texture->node, texture))
+            continue;
+        plr_target *target = push_target(view, texture);
+        read_update(target, texture->node);
+        if (plr_node_is(target->node, "RenderedTexture"))
+            prepare_rendered(view, target, diags);
+        target->never = target->never || plr_node_is(target->node, "GeneratedShadowMap");
+    }
+    plr_casters_prepare(view); /* for maps that only authors read */
+}
+
+/* A map that stands for a light's default is drawn, unless its author says how it is to be updated.
+ */
+bool plr_targets_add_shadow(plr_view *view, plr_shadow *shadow) {
+    if (is_known(view, shadow->values.texture) || !has_room(view, shadow->light, NULL))
+        return is_known(view, shadow->values.texture);
+    plr_target *target = push_target(view, shadow->values.texture);
+    target->shadow = shadow;
+    bool is_default = shadow->map == plr_node_child(shadow->light, "defaultShadowMap");
+    if (shadow->map && (!is_default || plr_node_field(shadow->map, "update")->given))
+        read_update(target, shadow->map);
+    return true;
+}
+
+void plr_targets_find(plr_view *view) {
+    for (size_t i = 0; i < view->targets.count; i++) {
+        plr_target *target = view->targets.items[i];
+        if (target->background)
+            plr_pass_find(view, &target->background->pass);
+        if (!target->own)
+            continue;
+        plr_view_enter(view, target->own);
+        plr_world_find(view);
+        plr_view_enter(view, target->own);
+    }
+}
+
+void plr_targets_finish(plr_view *view) {
+    for (size_t i = 0; i < view->targets.count; i++) {
+        plr_target *target = view->targets.items[i];
+        plr_canvas_destroy(&target->canvas);
+        if (!target->own)
+            continue;
+        plr_view_enter(view, target->own);
+        plr_world_finish(view);
+        plr_view_enter(view, target->own);
+    }
+    view->targets.count = 0;
+}
+
+/* ---- The order ---- */
+
+static void need_texture(plr_view *view, const plr_texture *texture);
+
+static void need_all_of(plr_view *view, const plr_slots *slots) {
+    size_t at = 0;
+    const plr_texture *texture;
+    while ((texture = plr_bind_next_texture(slots, &at)))
+        if (texture->generated)
+            need_texture(view, texture);
+}
+
+/* Everything that the world's programs read. */
+static void need_world(plr_view *view, const plr_world *world, const plr_background *background) {
+    need_all_of(view, &background->pass.slots);
+    for (size_t i = 0; i < world->volumes.cast_count; i++)
+        need_all_of(view, &world->volumes.casts[i].pass.slots);
+    for (size_t i = 0; i < world->model_count; i++)
+        need_all_of(view, &world->models[i]->pass.slots);
+}
+
+static void need_casters(plr_view *view, const plr_world *world) {
+    for (size_t i = 0; i < world->model_count; i++)
+        if (world->models[i]->caster)
+            need_all_of(view, &world->models[i]->caster->pass.slots);
+}
+
+static const plr_surface *find_reader(const plr_world *world, const plr_texture *texture) {
+    for (size_t i = 0; i < world->surface_count; i++)
+        if (plr_bind_reads(&world->surfaces[i].model->pass.slots, texture))
+            return &world->surfaces[i];
+    return NULL;
+}
+
+/* A cube map shows what is around the first shape that reads it, in the world of that. */
+static void find_world(plr_view *view, plr_target *target) {
+    target->world = target->shadow ? target->shadow->world : target->own;
+    if (target->texture->kind != PLR_TEXTURE_CUBE || target->shadow)
+        return;
+    target->reader = find_reader(&view->world, target->texture);
+    for (size_t i = 0; !target->reader && i < view->targets.count; i++) {
+        target->world = view->targets.items[i]->own;
+        if (target->world)
+            target->reader = find_reader(target->world, target->texture);
+    }
+}
+
+static void need_target(plr_view *view, plr_target *target, size_t index) {
+    if (target->state == TARGET_OPEN)
+        target->clear = true; /* a circle: what it held is of the picture before */
+    if (target->state != TARGET_UNSEEN)
+        return;
+    target->state = TARGET_OPEN;
+    find_world(view, target);
+    const plr_world *world = target->world ? target->world : &view->world;
+    bool draws = !target->never && !(target->once && target->drawn);
+    if (draws && target->shadow)
+        need_casters(view, world);
+    else if (draws)
+        need_world(view, world, target->background ? target->background : &world->background);
+    target->state = TARGET_DONE;
+    view->targets.order[view->targets.order_count++] = index;
+}
+
+static void need_texture(plr_view *view, const plr_texture *texture) {
+    for (size_t i = 0; i < view->targets.count; i++)
+        if (view->targets.items[i]->texture == texture)
+            need_target(view, view->targets.items[i], i);
+}
+
+static void find_order(plr_view *view) {
+    plr_targets *targets = &view->targets;
+    if (targets->order_capacity < targets->count) {
+        targets->order = PLR_NEW_ARRAY(&view->arena, targets->count, size_t);
+        targets->order_capacity = targets->count;
+    }
+    targets->order_count = 0;
+    for (size_t i = 0; i < targets->count; i++)
+        targets->items[i]->state = TARGET_UNSEEN;
+    need_world(view, &view->world, &view->background);
+}
+
+void plr_targets_draw(plr_view *view, const plr_frame *here) {
+    if (!view->targets.count)
+        return;
+    find_order(view);
+    for (size_t i = 0; i < view->targets.order_count; i++)
+        plr_target_clear(view, view->targets.items[view->targets.order[i]]);
+    for (size_t i = 0; i < view->targets.order_count; i++) {
+        plr_target *target = view->targets.items[view->targets.order[i]];
+        if (!target->never && !(target->once && target->drawn))
+            plr_target_draw(view, target, here);
+        target->drawn = true;
+    }
+}
+
+bool plr_targets_camera(plr_view *view, const plr_node *texture, plr_matrix *projection,
+                        plr_matrix *viewing) {
+    for (size_t i = 0; i < view->targets.count; i++) {
+        plr_target *target = view->targets.items[i];
+        if (target->node != texture || target->shadow || target->texture->kind != PLR_TEXTURE_2D)
+            continue;
+        plr_frame frame;
+        if (target->own)
+            plr_view_enter(view, target->own);
+        plr_target_plan(view, target, NULL, &frame);
+        if (target->own)
+            plr_view_enter(view, target->own);
+        *projection = frame.projection;
+        *viewing = frame.view;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,15 @@
+/* Drawing into one target. Needs GL; changes state of the context. */
+#ifndef PLR_ENGINE_TARGETS_DRAW_H
+#define PLR_ENGINE_TARGETS_DRAW_H
+
+#include "engine/targets.h"
+
+/* To opaque black, or as far as depths go, where the target asks for it. */
+void plr_target_clear(plr_view *view, plr_target *target);
+/* Draws it, in its world. `here` as in plr_targets_draw. */
+void plr_target_draw(plr_view *view, plr_target *target, const plr_frame *here);
+/* The frame in which a RenderedTexture is drawn. Sorts the world that it shows. */
+void plr_target_plan(plr_view *view, const plr_target *target, const plr_frame *here,
+                     plr_frame *frame);
+
+#endif

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""Textures of surfaces: kinds, units, samplers, effects on them, textures of materials."""
+
+import os
+
+from harness import Suite, blinn_phong
+from scenes import HEADER, NO_HEADLIGHT, Row, effect, effect_parts, front_scene, quad
+
+suite = Suite()
+
+# probed in a quad of Row: texture coordinates
+S, T = 0.375, 0.625
+HALF = "UnlitMaterial { emissiveColor 1 .5 .5 }"
+WHITE = "UnlitMaterial { }"
+FIELD = "PixelTexture { repeatS FALSE repeatT FALSE image 1 1 3 0x3366CC %s }"
+COLOR = (0.2, 0.4, 0.8)
+VOLUME = "PixelTexture3D { image [ 3 1 1 1 0x3366CC ] %s }"
+CUBE = ("ComposedCubeMapTexture { %s "
+        + " ".join(f"{side}Texture PixelTexture {{ image 1 1 3 {color} }}" for side, color in (
+            ("front", "0x3366CC"), ("back", "0x3366CC"), ("left", "0x3366CC"),
+            ("right", "0x3366CC"), ("top", "0x3366CC"), ("bottom", "0x3366CC"))) + " }")
+SHOW = "{ texture_color.rgb = vec3(tex_coord.st, 0.25); }"
+
+
+def texture_effect(body, sampler=None):
+    extra = f" const in {sampler} tex," if sampler else ""
+    return effect(f"void PLUG_texture_color(inout vec4 texture_color,{extra} const in vec4 tex_coord)"
+                  f"{body}")
+
+
+def effects(text):
+    return f"effects [ {text} ]"
+
+
+def check_all(cases, head="", **options):
+    """Cases: name, content, expected colour."""
+    row = Row(suite)
+    for _, content, _ in cases:
+        row.add(content)
+    for (name, _, expected), got in zip(cases, row.draw(head=head, **options)):
+        expected = tuple(expected) + (1,) * (4 - len(expected))
+        suite.close(name, got, expected, 2e-3)
+
+
+@suite.case
+def kinds():
+    "2D, 3D and cube textures multiply the colour before light"
+    check_all(tuple((name, quad(HALF, appearance="texture " + texture % ""), (0.2, 0.2, 0.4))
+                    for name, texture in (("2D", FIELD), ("3D", VOLUME), ("cube", CUBE))))
+
+
+@suite.case
+def components():
+    "how many components the texture has: grey, with alpha, colour"
+    pixel = "texture PixelTexture { image 1 1 %s }"
+    check_all((
+        ("L", quad(HALF, appearance=pixel % "1 0x80"), (0.502, 0.251, 0.251)),
+        ("LA", quad(HALF, appearance=pixel % "2 0x8080"), (0.252, 0.126, 0.126, 0.502)),
+        ("RGB", quad(HALF, appearance=pixel % "3 0x3366CC"), (0.2, 0.2, 0.4)),
+        ("RGBA", quad(HALF, appearance=pixel % "4 0x3366CC80"), (0.1004, 0.1004, 0.2008, 0.502)),
+    ))
+
+
+@suite.case
+def plugs():
+    "texture_color with and without the sampler, for every kind of texture"
+    cases = []
+    for name, texture, sampler, read in (
+            ("2D", FIELD, "sampler2D", "texture2D(tex, tex_coord.st)"),
+            ("3D", VOLUME, "sampler3D", "texture3D(tex, tex_coord.stp)"),
+            ("cube", CUBE, "samplerCube", "textureCube(tex, tex_coord.stp)")):
+        cases.append((name + ", without", quad(WHITE, appearance="texture " + texture % effects(
+            texture_effect("{ texture_color.rgb = texture_color.bgr; }"))), (0.8, 0.4, 0.2)))
+        cases.append((name + ", with", quad(WHITE, appearance="texture " + texture % effects(
+            texture_effect("{ texture_color.rgb = 1.0 - %s.rgb; }" % read, sampler))),
+            (0.8, 0.6, 0.2)))
+        cases.append((name + ", of the shape", quad(WHITE, texture_effect(
+            "{ texture_color.rgb = 0.5 * %s.rgb; }" % read, sampler),
+            "texture " + texture % ""), (0.1, 0.2, 0.4)))
+    check_all(cases)
+
+
+@suite.case
+def shift():
+    "texture_coord_shift moves the coordinates before the first texture is sampled"
+    two = "PixelTexture { image 2 1 3 0xFF0000 0x00FF00 repeatS FALSE textureProperties TextureProperties { magnificationFilter \"NEAREST\" minificationFilter \"NEAREST\" boundaryModeS \"CLAMP\" boundaryModeT \"CLAMP\" } %s }"
+    move = effect("void PLUG_texture_coord_shift(inout vec2 tex_coord) { tex_coord.s += 0.5; }")
+    check_all((
+        ("not moved", quad(WHITE, appearance="texture " + two % ""), (1, 0, 0)),
+        ("moved", quad(WHITE, move, "texture " + two % ""), (0, 1, 0)),
+        ("and seen by effects on the texture", quad(WHITE, move, "texture " + two % effects(
+            texture_effect(SHOW))), (S + 0.5, T, 0.25)),
+        ("the second unit stays", quad(WHITE, move, "texture MultiTexture { mode [ \"REPLACE\" \"ADD\" ] "
+                                       f"texture [ {two % ''} {two % ''} ] }}"), (1, 1, 0)),
+        ("cubes stay", quad(WHITE, move, "texture " + CUBE % ""), COLOR),
+    ))
+
+
+@suite.case
+def instances():
+    "one texture in two units is two instances, each with its own effects and uniforms"
+    scaled = effect("uniform float factor;\nvoid PLUG_texture_color(inout vec4 texture_color,"
+                    " const in vec4 tex_coord) { texture_color.rgb *= factor; }",
+                    "inputOutput SFFloat factor .5")
+    other = scaled.replace("factor .5", "factor .25")
+    multi = "texture MultiTexture { mode [ \"REPLACE\" \"ADD\" ] texture [ %s %s ] }"
+    first = "DEF IMAGE_%d " + FIELD % effects(scaled)
+    check_all((
+        ("USE", quad(WHITE, appearance=multi % (first % 1, "USE IMAGE_1")), COLOR),
+        ("different values", quad(WHITE, appearance=multi % (first % 2, FIELD % effects(other))),
+         [0.75 * c for c in COLOR]),
+        ("one alone", quad(WHITE, appearance=multi % (FIELD % effects(scaled), FIELD % "")),
+         [1.5 * c for c in COLOR]),
+        ("both and the shape's", quad(WHITE, texture_effect("{ texture_color.rgb *= 0.5; }"),
+                                      multi % (first % 3, "USE IMAGE_3")), [0.5 * c for c in COLOR]),
+        ("the MultiTexture's", quad(WHITE, appearance="texture MultiTexture { effects [ "
+                                    + texture_effect("{ texture_color.rgb *= 0.25; }")
+                                    + f" ] mode [ \"REPLACE\" \"ADD\" ] texture [ {FIELD % ''} {FIELD % ''} ] }}"),
+         [0.5 * c for c in COLOR]),
+    ))
+
+
+@suite.case
+def reaching():
+    "an effect on a texture may use the plugs of the shape, in both stages"
+    code = effect_parts((
+        ("VERTEX", "varying float height;\nvoid PLUG_vertex_object_space(const in vec4 v, inout vec3 n)"
+                   "{ height = v.y; }"),
+        ("FRAGMENT", "varying float height;\n"
+                     "void PLUG_fragment_modify(inout vec4 color) { color.r = height + 0.5; }\n"
+                     "void PLUG_texture_color(inout vec4 c, const in vec4 t) { c.b = 0.5; }")))
+    check_all((("", quad(WHITE, appearance="texture " + FIELD % effects(code)), (T, 0.4, 0.5)),))
+
+
+@suite.case
+def samplers_of_effects():
+    "textures of all kinds as fields of an effect"
+    kinds = (("sampler2D", FIELD % "", "texture2D(image, vec2(0.5))"),
+             ("sampler3D", VOLUME % "", "texture3D(image, vec3(0.5))"),
+             ("samplerCube", CUBE % "", "textureCube(image, vec3(0.0, 0.0, 1.0))"))
+    check_all(tuple(
+        (sampler, quad(WHITE, effect(
+            f"uniform {sampler} image;\nvoid PLUG_fragment_modify(inout vec4 c) {{ c.rgb = {read}.bgr; }}",
+            "inputOutput SFNode image " + texture)), (0.8, 0.4, 0.2))
+        for sampler, texture, read in kinds))
+
+
+# ---- Textures of materials
+
+DIRECTION = "DirectionalLight { direction 0 0 -1 ambientIntensity 1 intensity .5 }\n"
+PHONG = ("Material {{ diffuseColor .6 .4 .2 specularColor .5 .5 .5 shininess .25 ambientIntensity .5 "
+         "emissiveColor .1 .2 .3 {} }}")
+
+
+def phong(diffuse=(0.6, 0.4, 0.2), specular=(0.5,) * 3, ambient=None, emissive=(0.1, 0.2, 0.3),
+          scale=1.0):
+    ambient = ambient or [0.5 * d for d in diffuse]
+    shine = blinn_phong((0, 0, 1), (0, 0, 1), (0, 0, 1), diffuse, specular, 32)
+    return tuple(e + scale * (a + 0.5 * s) for e, a, s in zip(emissive, ambient, shine))
+
+
+def times(a, b):
+    return tuple(x * y for x, y in zip(a, b))
+
+
+@suite.case
+def material_textures():
+    "each texture of a Material changes its own part of the light"
+    image = "%sTexture " + FIELD % ""
+    alpha = "%sTexture PixelTexture { image 1 1 4 0xFFFFFF80 }"
+    tilted = "Transform { rotation 0 1 0 .3 children [ %s ] }\n"
+    check_all((
+        ("none", DIRECTION + quad(PHONG.format("")), phong()),
+        ("diffuse", DIRECTION + quad(PHONG.format(image % "diffuse")),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR))),
+        ("ambient", DIRECTION + quad(PHONG.format(image % "ambient")),
+         phong(ambient=times((0.3, 0.2, 0.1), COLOR))),
+        ("specular", DIRECTION + quad(PHONG.format(image % "specular")),
+         phong(specular=times((0.5,) * 3, COLOR))),
+        ("emissive", DIRECTION + quad(PHONG.format(image % "emissive")),
+         phong(emissive=times((0.1, 0.2, 0.3), COLOR))),
+        ("occlusion: red", DIRECTION + quad(PHONG.format(image % "occlusion")), phong(scale=0.2)),
+        ("occlusion, one half", DIRECTION + quad(PHONG.format(
+            "occlusionStrength .5 " + image % "occlusion")), phong(scale=0.6)),
+        ("unlit", quad("UnlitMaterial { emissiveColor 1 .5 .5 emissiveTexture " + FIELD % "" + " }"),
+         (0.2, 0.2, 0.4)),
+        ("the Appearance's, beside another", DIRECTION + quad(
+            PHONG.format(image % "emissive"), appearance="texture " + FIELD % ""),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR), emissive=times((0.1, 0.2, 0.3), COLOR))),
+        ("diffuse hides the Appearance's", DIRECTION + quad(
+            PHONG.format(image % "diffuse"), appearance="texture PixelTexture { image 1 1 3 0xFF0000 }"),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR))),
+    ))
+    row = Row(suite)
+    row.add(DIRECTION + tilted % quad(PHONG.format(alpha % "shininess")))
+    row.add(DIRECTION + tilted % quad(PHONG.format("").replace(
+        "shininess .25", f"shininess {0.25 * 128 / 255}")))
+    row.add(DIRECTION + tilted % quad(PHONG.format("")))
+    got = row.draw()
+    suite.close("shininess: alpha", got[0], got[1], 1e-4)
+    suite.check("which is another exponent", abs(got[0][0] - got[2][0]) > 0.01, got)
+
+
+suite.run()
