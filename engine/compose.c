@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "engine/bind.h"
+#include "engine/memo.h"
 #include "engine/report.h"
 #include "engine/unreached.h"
 
@@ -159,14 +160,14 @@ static plr_built *find_built(const plr_composer *c, const char *const texts[PLR_
 
 static plr_built *keep(plr_composer *c, const plr_recipe *recipe, const char *kind,
                        plr_program *program, uint64_t hash) {
-    plr_built *built = PLR_NEW(c->kitchen->arena, plr_built);
+    plr_built *built = PLR_NEW(c->kitchen->lasting, plr_built);
     built->hash = hash;
     built->info = (plr_program_info){
-        .name = plr_arena_format(c->kitchen->arena, "%s-%zu", kind, c->built.count + 1),
+        .name = plr_arena_format(c->kitchen->lasting, "%s-%zu", kind, c->built.count + 1),
         .program = program,
         .effects = recipe->effects.items,
         .effect_count = recipe->effects.count};
-    *PLR_PUSH(c->kitchen->arena, &c->built) = built;
+    *PLR_PUSH(c->kitchen->lasting, &c->built) = built;
     return built;
 }
 
@@ -230,11 +231,16 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
 plr_built *plr_compose_program(plr_composer *c, plr_recipe *recipe, const char *kind,
                                const plr_program **program) {
     plr_built *built = NULL;
-    bool again = true;
-    for (int round = 0; again && !built; round++)
-        built = try_once(c, recipe, kind, round, &again);
-    if (built && c->check_unreached)
-        plr_unreached_collect(c, recipe);
+    plr_memo_key key;
+    if (!plr_memo_find(c, recipe, kind, &key, &built)) {
+        bool again = true;
+        plr_memo_settle(c, recipe);
+        for (int round = 0; again && !built; round++)
+            built = try_once(c, recipe, kind, round, &again);
+        if (built && c->check_unreached)
+            plr_unreached_collect(c, recipe);
+        plr_memo_add(c, &key, recipe, built);
+    }
     *program = built ? built->info.program : NULL;
     return built;
 }

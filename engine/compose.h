@@ -21,6 +21,8 @@ typedef struct plr_unreached {
     const char *text;
 } plr_unreached;
 
+typedef struct plr_memo plr_memo;
+
 typedef struct plr_composer {
     plr_kitchen *kitchen;
     plr_cache *cache; /* NULL: no GL, glslang only */
@@ -34,6 +36,7 @@ typedef struct plr_composer {
         plr_unreached *items;
         size_t count, capacity;
     } unreached;
+    plr_memo **memos; /* see memo.h */
     double link_cpu_ms, link_wall_ms, compile_cpu_ms, compile_wall_ms;
 } plr_composer;
 

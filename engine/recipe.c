@@ -130,8 +130,8 @@ static const plr_source *part_source(plr_kitchen *k, const plr_node *part) {
     for (size_t i = 0; i < k->part_count; i++)
         if (k->parts[i].node == part)
             return k->parts[i].source;
-    k->parts =
-        plr_arena_grow(k->arena, k->parts, &k->part_capacity, k->part_count + 1, sizeof *k->parts);
+    k->parts = plr_arena_grow(k->lasting, k->parts, &k->part_capacity, k->part_count + 1,
+                              sizeof *k->parts);
     struct part *slot = &k->parts[k->part_count++];
     *slot = (struct part){part, NULL};
     plr_string code;

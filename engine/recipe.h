@@ -38,7 +38,8 @@ typedef struct plr_recipe {
 
 /* Sources of authors' parts, read once for each part node. */
 typedef struct plr_kitchen {
-    plr_arena *arena;
+    plr_arena *arena;   /* of recipes: renewed when the scene changes */
+    plr_arena *lasting; /* of what is kept then */
     plr_scene *scene;
     const plr_catalog *catalog;
     plr_textures *textures;

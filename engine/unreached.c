@@ -47,7 +47,7 @@ static void keep(plr_composer *c, const plr_report *report, const plr_glsl_messa
         return;
     char text[1024];
     plr_program_demangle(report->program, message->text, text, sizeof text);
-    plr_arena *arena = c->kitchen->arena;
+    plr_arena *arena = c->kitchen->lasting;
     if (mapped.place.file)
         mapped.place.file = plr_arena_copy(arena, mapped.place.file, strlen(mapped.place.file));
     *PLR_PUSH(arena, &c->unreached) =

@@ -20,9 +20,11 @@ static void set_diags(plr_view *view, plr_diags *diags) {
 }
 
 static void init_parts(plr_view *view, const plr_catalog *catalog, plr_diags *diags) {
-    view->textures = (plr_textures){
-        .arena = &view->arena, .scene = view->scene, .gl = view->engine ? &view->engine->gl : NULL};
+    view->textures = (plr_textures){.arena = &view->lasting,
+                                    .scene = view->scene,
+                                    .gl = view->engine ? &view->engine->gl : NULL};
     view->kitchen = (plr_kitchen){.arena = &view->arena,
+                                  .lasting = &view->lasting,
                                   .scene = view->scene,
                                   .catalog = catalog,
                                   .textures = &view->textures};
@@ -81,6 +83,7 @@ plr_view *plr_view_create(plr_engine *engine, plr_scene *scene, const plr_view_d
         view->desc = *desc;
     jmp_buf out_of_memory;
     plr_arena_init(&view->arena, NULL, &out_of_memory);
+    plr_arena_init(&view->lasting, NULL, &out_of_memory);
     plr_view *made = view;
     if (setjmp(out_of_memory)) {
         plr_diags_add(diags, PLR_CODE_NO_MEMORY, (plr_place){0}, "there is not enough memory");
@@ -117,6 +120,7 @@ void plr_view_destroy(plr_view **view) {
     plr_kitchen_finish(&v->kitchen);
     plr_catalog_destroy(&v->own_catalog);
     plr_arena_finish(&v->arena);
+    plr_arena_finish(&v->lasting);
     free(v);
     *view = NULL;
 }

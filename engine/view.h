@@ -99,7 +99,9 @@ typedef struct plr_world {
 } plr_world;
 
 struct plr_view {
-    plr_arena arena;
+    plr_arena arena;    /* of worlds: renewed when the scene changes */
+    plr_arena lasting;  /* of what is kept then: textures, programs, sources */
+    uint64_t revision;  /* of the scene, when its worlds were made */
     plr_engine *engine; /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;
     plr_scene *scene;

@@ -127,7 +127,8 @@ static void validate_effects(link_job *job) {
     plr_arena arena;
     jmp_buf out_of_memory;
     plr_arena_init(&arena, NULL, &out_of_memory);
-    plr_kitchen kitchen = {.arena = &arena, .catalog = job->catalog, .diags = job->diags};
+    plr_kitchen kitchen = {
+        .arena = &arena, .lasting = &arena, .catalog = job->catalog, .diags = job->diags};
     plr_composer composer = {.kitchen = &kitchen, .check_unreached = true, .diags = job->diags};
     plr_recipe recipe = recipe_of(job);
     if (setjmp(out_of_memory) == 0) {
