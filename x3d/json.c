@@ -186,15 +186,18 @@ static const yajl_callbacks events = {.yajl_null = on_null,
                                       .yajl_start_array = on_array,
                                       .yajl_end_array = on_end};
 
-/* yajl's own words, which end with a newline. It has passed the byte or the token at fault. */
-static void report_fault(parser *p, bool at_end) {
+/* yajl's own words, which end with a newline. It has passed the token at fault, or in a string the
+ * byte. */
+static void report_fault(parser *p) {
     if (p->fault->message)
         return;
     const char *text = (const char *)yajl_get_error(p->yajl, 0, NULL, 0);
     size_t passed = yajl_get_bytes_consumed(p->yajl);
-    bool lexical = strncmp(text, "lexical", 7) == 0 && passed && passed <= p->length;
+    bool in_string = strstr(text, "inside") || strstr(text, "UTF8");
     p->fault->message = plr_arena_copy(p->arena, text, strcspn(text, "\n"));
-    p->fault->offset = at_end ? p->length : lexical ? passed - 1 : next_start(p);
+    p->fault->offset = strstr(text, "premature")                    ? p->length
+                       : in_string && passed && passed <= p->length ? passed - 1
+                                                                    : next_start(p);
 }
 
 const x3d_json *x3d_json_parse(plr_arena *arena, const char *text, size_t length,
@@ -203,9 +206,9 @@ const x3d_json *x3d_json_parse(plr_arena *arena, const char *text, size_t length
     yajl_alloc_funcs memory = {yajl_new, yajl_resize, yajl_forget, &p};
     *fault = (x3d_json_fault){0};
     p.yajl = yajl_alloc(&events, &memory, &p);
-    bool sound = yajl_parse(p.yajl, (const unsigned char *)text, length) == yajl_status_ok;
-    if (!sound || yajl_complete_parse(p.yajl) != yajl_status_ok) {
-        report_fault(&p, sound);
+    if (yajl_parse(p.yajl, (const unsigned char *)text, length) != yajl_status_ok ||
+        yajl_complete_parse(p.yajl) != yajl_status_ok) {
+        report_fault(&p);
         return NULL;
     }
     return &p.pending.items[0];
