@@ -60,3 +60,31 @@ void plr_report_add(const plr_report *report, const plr_glsl_message *message, p
         plr_diags_note(diags, mapped.plug_place, "called at this plug%s%s", name ? " for " : "",
                        name ? name : "");
 }
+
+/* Old names of plugs, which the base still offers. */
+static const struct {
+    const char *old, *today;
+} deprecated[] = {{"texture_apply", "main_texture_apply"}};
+
+static void warn_callers(const plr_recipe *recipe, const plr_program *program, size_t plug,
+                         const char *today, plr_diags *diags) {
+    const plr_plug_info *info = plr_program_plug(program, plug);
+    for (size_t call = 0; call < info->call_count; call++) {
+        plr_place place;
+        size_t effect = plr_program_plug_call(program, plug, call, &place);
+        if (effect != PLR_NO_EFFECT && !recipe->effects.items[effect].builtin)
+            plr_diags_add(diags, PLR_CODE_DEPRECATED_PLUG, place,
+                          "the plug \"%s\" is called \"%s\" today", info->name, today);
+    }
+}
+
+void plr_report_deprecated(const plr_recipe *recipe, const plr_program *program, plr_diags *diags) {
+    if (recipe->base_node) /* the author's own plugs */
+        return;
+    for (size_t i = 0; i < plr_program_plug_count(program); i++) {
+        const plr_plug_info *info = plr_program_plug(program, i);
+        for (size_t d = 0; d < sizeof deprecated / sizeof *deprecated; d++)
+            if (info->effect == PLR_NO_EFFECT && strcmp(info->name, deprecated[d].old) == 0)
+                warn_callers(recipe, program, i, deprecated[d].today, diags);
+    }
+}

@@ -19,4 +19,7 @@ size_t plr_report_locate(const plr_report *report, const plr_glsl_message *messa
 /* Adds the message to the diagnostics, in the author's words and at the author's place. */
 void plr_report_add(const plr_report *report, const plr_glsl_message *message, plr_diags *diags);
 
+/* Warns of functions of authors at plugs of the base that have another name today. */
+void plr_report_deprecated(const plr_recipe *recipe, const plr_program *program, plr_diags *diags);
+
 #endif

@@ -1,7 +1,7 @@
 /* Materials of surfaces as effects, and what their transparency means. */
-#include "engine/surface.h"
-
 #include <string.h>
+
+#include "engine/surface_textures.h"
 
 /* Its node types are those of the material's colours; the field's place is the fault's. */
 static plr_node *back_material(const plr_shape *shape, plr_node *material, const char *type) {
@@ -58,8 +58,6 @@ bool plr_shape_blends(const plr_shape *shape) {
     if (!shape->appearance)
         return false;
     const plr_node *material = plr_node_child(shape->appearance, "material");
-    const plr_node *texture = plr_node_child(shape->appearance, "texture");
-    const plr_texture *image = texture ? plr_textures_get(&shape->view->textures, texture) : NULL;
     return (material && plr_node_number(material, "transparency") > 0) ||
-           (image && image->alpha != PLR_ALPHA_OPAQUE);
+           plr_shape_texture_alpha(shape) != PLR_ALPHA_OPAQUE;
 }

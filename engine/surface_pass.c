@@ -55,7 +55,8 @@ static const float *attribute_data(plr_mesh *mesh, const char *name, int *compon
         const float *data;
     } standard[] = {{"castle_Vertex", 3, mesh->positions},
                     {"castle_Normal", 3, mesh->normals},
-                    {"castle_ColorPerVertex", 4, mesh->colors}};
+                    {"castle_ColorPerVertex", 4, mesh->colors},
+                    {"castle_FogCoord", 1, mesh->fog_coords}};
     for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
         if (strcmp(name, standard[i].name) == 0) {
             *components = standard[i].components;

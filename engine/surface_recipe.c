@@ -110,7 +110,8 @@ static void prepare_model(plr_view *view, plr_model *model, const plr_leaf *leaf
 /* ---- Models and the places where they stand ---- */
 
 static bool is_empty(const plr_scope *scope) {
-    return !scope->lights.count && !scope->effects.count;
+    return !scope->lights.count && !scope->effects.count && !scope->fog.node &&
+           !scope->clip_planes.count;
 }
 
 /* Models by shape and scope: open addressing, at most half full. */

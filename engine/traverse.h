@@ -7,8 +7,9 @@
 #include "engine/matrix.h"
 
 typedef struct plr_light {
-    plr_node *node; /* NULL: the headlight */
+    plr_node *node; /* NULL: a headlight as the standard has it */
     plr_matrix to_world;
+    bool in_eye_space; /* a headlight: it goes with the viewer */
 } plr_light;
 
 typedef struct plr_lights {
@@ -21,11 +22,24 @@ typedef struct plr_nodes {
     size_t count, capacity;
 } plr_nodes;
 
+/* A node in its place: a fog, a clip plane. */
+typedef struct plr_placed {
+    plr_node *node; /* or NULL */
+    plr_matrix to_world;
+} plr_placed;
+
+typedef struct plr_placed_list {
+    plr_placed *items;
+    size_t count, capacity;
+} plr_placed_list;
+
 /* What a group gives to everything inside it, siblings before included. */
 typedef struct plr_scope {
     const struct plr_scope *outer; /* NULL at the top level */
     plr_lights lights;             /* with global FALSE */
     plr_nodes effects;
+    plr_placed fog; /* the first LocalFog that is enabled */
+    plr_placed_list clip_planes;
 } plr_scope;
 
 /* A volume or a shape in its place. */
@@ -53,13 +67,19 @@ typedef struct plr_flat {
         plr_viewpoint *items;
         size_t count, capacity;
     } viewpoints;
-    plr_node *background, *navigation; /* the first of each, or NULL */
+    plr_node *background, *navigation; /* the bound one of each, else the first, or NULL */
     plr_matrix background_to_world;
+    plr_placed fog;         /* the first Fog */
+    plr_node *tone_mapping; /* the first, or NULL */
+    bool has_eye; /* somebody looks: levels of detail and billboards are as he sees them */
+    plr_matrix eye_to_world;
+    bool depends_on_viewer; /* there are such */
 } plr_flat;
 
 /* Flattens the scene; everything is allocated in the arena. Nodes that cannot be drawn yet give a
- * `not-drawn` warning. */
-void plr_flatten(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags);
+ * `not-drawn` warning. `eye_to_world` NULL: nobody looks. */
+void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_world, plr_flat *flat,
+                 plr_diags *diags);
 /* Flattens one node and what is inside it, in world coordinates of its own. The global lights
  * around it light it, too; the headlight is as around where it has no NavigationInfo. */
 void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
@@ -68,6 +88,8 @@ void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const 
 /* The viewpoint that `selector` names: NULL or "" the first, a number from 1, a DEF name, a
  * description; NULL if there is none such. */
 const plr_viewpoint *plr_flat_viewpoint(const plr_flat *flat, const char *selector);
+/* The one that is bound, where events have bound one; else `chosen`. */
+const plr_viewpoint *plr_flat_bound(const plr_flat *flat, const plr_viewpoint *chosen);
 
 /* Projection and world -> eye for a picture of this shape. near and far must hold the depths of
  * what is drawn with a depth buffer; the viewpoint's own distances override them. */

@@ -20,6 +20,8 @@ in float fog_coordinate;
 
 /* How much of the surface is seen through so much fog. */
 float fog_interpolant(float depth) {
+    if (visibilityRange <= 0.0) /* none */
+        return 1.0;
     if (depth >= visibilityRange)
         return 0.0;
     depth = max(depth - visibilityStart, 0.0);

@@ -4,7 +4,7 @@
 
 const float display_gamma = 2.2;
 
-void PLUG_texture_color(inout vec4 texture_color, const in vec4 tex_coord) {
+void PLUG_texture_decode(inout vec4 texture_color) {
     texture_color.rgb = pow(max(texture_color.rgb, 0.0), vec3(display_gamma));
 }
 

@@ -14,6 +14,7 @@ typedef struct part {
     const char *vertex_text;
     const plr_define *defines;
     size_t define_count;
+    const char *geometry_text;
 } part;
 
 typedef struct recipe {
@@ -87,6 +88,8 @@ static void link_recipe(linked *l, const recipe *r) {
             list[units++] = read_text(l, PLR_FRAGMENT, p->path, p->text);
         if (p->vertex_text)
             list[units++] = read_text(l, PLR_VERTEX, p->path, p->vertex_text);
+        if (p->geometry_text)
+            list[units++] = read_text(l, PLR_GEOMETRY, p->path, p->geometry_text);
         if (!units)
             units = read_files(l, p->path, list);
         l->effects[count] = (plr_effect){.name = p->path,
@@ -94,7 +97,7 @@ static void link_recipe(linked *l, const recipe *r) {
                                          .source_count = units,
                                          .defines = p->defines,
                                          .define_count = p->define_count,
-                                         .builtin = !p->text && !p->vertex_text};
+                                         .builtin = !p->text && !p->vertex_text && !p->geometry_text};
     }
     plr_link_desc desc = {.base = l->base,
                           .base_count = read_files(l, r->base, l->base),
@@ -404,14 +407,23 @@ static void check_example(const char *text) {
     char name[100] = "example";
     sscanf(strstr(text, "PLUG_"), "%99[A-Za-z_]", name);
     bool vertex = strstr(text, "PLUG_vertex") != NULL;
+    bool geometry = strstr(text, "PLUG_geometry") != NULL;
     bool volume = strstr(text, "PLUG_volume") != NULL;
+    static const char emitting[] =
+        "layout(triangles) in; layout(triangle_strip, max_vertices = 3) out;\n"
+        "void main() { geometryVertexSet(0); geometryVertexZero(); geometryVertexAdd(1, 0.5);\n"
+        "  EmitVertex(); }\n";
     const recipe surfaces = {
         name,
         "surface/surface",
         {{.path = "surface/Material"},
          {.path = "surface/Texture2D"},
          {.path = "lights/DirectionalLight"},
-         {.path = name, .text = vertex ? NULL : text, .vertex_text = vertex ? text : NULL}},
+         {.path = name,
+          .text = vertex || geometry ? NULL : text,
+          .vertex_text = vertex ? text : NULL,
+          .geometry_text = geometry ? text : NULL},
+         {.path = geometry ? "emitting" : NULL, .geometry_text = emitting}},
         DEFINES(plain),
         .present = name + strlen("PLUG_")};
     const recipe volumes = {name,
