@@ -1,3 +1,4 @@
+#include "engine/font.h"
 #include "engine/mesh_internal.h"
 
 #include <math.h>
@@ -26,6 +27,7 @@ static const struct {
     {"Cone", plr_make_cone},
     {"Cylinder", plr_make_cylinder},
     {"Extrusion", plr_make_extrusion},
+    {"Text", plr_make_text},
     {"Teapot", plr_make_teapot},
     {"Plane", plr_make_rectangle},
     {"Rectangle2D", plr_make_rectangle},
@@ -51,41 +53,56 @@ static bool make(plr_maker *maker) {
     return false;
 }
 
-static bool build(plr_arena *arena, const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
-    plr_maker maker = {.arena = arena, .node = geometry, .mesh = mesh, .diags = diags};
+static bool build(plr_maker *maker) {
+    const plr_node *geometry = maker->node;
+    plr_mesh *mesh = maker->mesh;
     mesh->two_sided = is_false(geometry, "solid");
     mesh->clockwise = is_false(geometry, "ccw");
-    if (!make(&maker))
+    if (!make(maker))
         return false;
     if (!mesh->vertex_count)
         return false;
     plr_mesh_find_bounds(mesh);
     for (int i = 0; i < 6; i++)
         if (!isfinite(mesh->bounds[i / 3][i % 3])) {
-            plr_diags_add(diags, PLR_CODE_BAD_GEOMETRY, plr_node_place(geometry),
+            plr_diags_add(maker->diags, PLR_CODE_BAD_GEOMETRY, plr_node_place(geometry),
                           "the size of the %s is not finite", plr_node_type(geometry));
             return false;
         }
     return true;
 }
 
-bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
-    memset(mesh, 0, sizeof *mesh);
-    plr_arena arena;
+/* The maker is the caller's, so that what it holds is known after a jump. */
+static bool build_guarded(plr_maker *maker) {
     jmp_buf out_of_memory;
-    plr_arena_init(&arena, NULL, &out_of_memory);
+    plr_arena_init(maker->arena, NULL, &out_of_memory);
     if (setjmp(out_of_memory)) {
-        plr_arena_finish(&arena);
-        plr_mesh_free(mesh);
-        plr_diags_add(diags, PLR_CODE_NO_MEMORY, plr_node_place(geometry), "no memory for the %s",
-                      plr_node_type(geometry));
+        plr_diags_add(maker->diags, PLR_CODE_NO_MEMORY, plr_node_place(maker->node),
+                      "no memory for the %s", plr_node_type(maker->node));
         return false;
     }
-    bool built = build(&arena, geometry, mesh, diags);
+    return build(maker);
+}
+
+bool plr_mesh_build_with(const plr_node *geometry, const char *const *font_folders, plr_mesh *mesh,
+                         plr_diags *diags) {
+    memset(mesh, 0, sizeof *mesh);
+    plr_arena arena;
+    plr_maker maker = {.arena = &arena,
+                       .node = geometry,
+                       .mesh = mesh,
+                       .diags = diags,
+                       .font_folders = font_folders};
+    bool built = build_guarded(&maker);
+    plr_font_close(maker.font);
     plr_arena_finish(&arena);
     if (!built)
         plr_mesh_free(mesh);
     return built;
+}
+
+bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags) {
+    return plr_mesh_build_with(geometry, NULL, mesh, diags);
 }
 
 void plr_mesh_free(plr_mesh *mesh) {

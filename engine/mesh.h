@@ -48,6 +48,9 @@ typedef struct plr_mesh {
 /* Builds the mesh of a geometry node. Faults (bad-geometry) are reported at the node or field; what
  * is left is built. False if nothing can be drawn (unknown geometry: not-drawn). */
 bool plr_mesh_build(const plr_node *geometry, plr_mesh *mesh, plr_diags *diags);
+/* The same with fonts from these folders, NULL at the end. */
+bool plr_mesh_build_with(const plr_node *geometry, const char *const *font_folders, plr_mesh *mesh,
+                         plr_diags *diags);
 void plr_mesh_free(plr_mesh *mesh);
 
 /* The texture coordinates that unit `unit` uses: its own, or those of the last unit before it that

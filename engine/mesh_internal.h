@@ -80,6 +80,13 @@ typedef struct plr_clipper {
 void plr_triangulate(plr_clipper *clipper, const plr_polygons *polygons, const plr_face *face,
                      uint32_t *triangles);
 
+/* mesh_outline.c: adds the area that closed contours bound, which do not cross; holes run the other
+ * way around than what they are in. `ends`: where each contour ends, one past its last point. The
+ * points get the numbers from `coord` on, as coordinates and texture coordinates, and normal 0;
+ * they are put in the order of counterclockwise areas. */
+void plr_polygons_add_outline(plr_polygons *polygons, double (*points)[2], const uint32_t *ends,
+                              size_t contour_count, uint32_t coord);
+
 /* mesh_emit.c: vertices and indices. False if there is nothing to draw. */
 bool plr_polygons_emit(plr_polygons *polygons, plr_mesh *mesh);
 /* malloc for the mesh's own arrays; without memory jumps as the arena does. */
@@ -94,6 +101,8 @@ typedef struct plr_maker {
     const plr_node *node;
     plr_mesh *mesh;
     plr_diags *diags;
+    const char *const *font_folders; /* as plr_font_open takes them */
+    struct plr_font *font;           /* closed when the mesh is built, whatever happens */
 } plr_maker;
 
 /* mesh_add.c: meshes put together vertex by vertex. Triangles have normals and texture coordinates,
@@ -127,8 +136,9 @@ bool plr_make_disk(plr_maker *maker);
 bool plr_make_polyline(plr_maker *maker);
 bool plr_make_polypoint(plr_maker *maker);
 bool plr_make_triangles2d(plr_maker *maker);
-/* mesh_extrusion.c, mesh_teapot.c: */
+/* mesh_extrusion.c, mesh_teapot.c, mesh_text.c: */
 bool plr_make_extrusion(plr_maker *maker);
+bool plr_make_text(plr_maker *maker);
 bool plr_make_teapot(plr_maker *maker);
 
 /* Segments of a full circle. */

@@ -2,7 +2,7 @@
 #ifndef PLR_TESTS_MESH_TEST_H
 #define PLR_TESTS_MESH_TEST_H
 
-#include "engine/mesh.h"
+#include "engine/mesh_internal.h"
 #include "tests/tap.h"
 
 #define PI 3.14159265358979323846
