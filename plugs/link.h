@@ -115,6 +115,7 @@ struct plr_socket {
     plr_unit *unit;
     const plr_plug *plug;
     uint32_t effect;          /* or PLR_OWNER_BASE */
+    uint32_t index;           /* in the list of the link */
     PLR_LIST(plr_call) calls; /* in their final order after plr_order_calls */
     bool reached;
 };
@@ -357,8 +358,8 @@ bool plr_lacks_name(plr_linking *l, const plr_unit *unit, uint32_t token);
 /* reach.c: what the program needs. */
 void plr_reach(plr_linking *l);
 /* The functions that a direct call of PLUG_x with that many arguments means, in `found`. */
-size_t plr_direct_functions(plr_linking *l, plr_unit *unit, uint32_t token, plr_function **found,
-                            size_t capacity);
+size_t plr_direct_functions(const plr_linking *l, const plr_unit *unit, uint32_t token,
+                            plr_function **found, size_t capacity);
 
 /* symbols.c: elements of an array whose brackets begin at `token`; 0: there are none. */
 uint32_t plr_array_size(plr_linking *l, const plr_unit *unit, uint32_t token, uint32_t end);

@@ -28,6 +28,7 @@ void plr_add_sockets(plr_linking *l, plr_unit *unit) {
         socket->unit = unit;
         socket->plug = plug;
         socket->effect = owner;
+        socket->index = (uint32_t)l->sockets.count;
         unit->sockets[index] = socket;
         *PLR_PUSH(l->pass, &l->sockets) = socket;
         list_socket(l, plug_key(stage, 0, gid), socket);
@@ -241,8 +242,8 @@ void plr_name_functions(plr_linking *l, plr_scope *scope) {
         }
 }
 
-size_t plr_direct_functions(plr_linking *l, plr_unit *unit, uint32_t token, plr_function **found,
-                            size_t capacity) {
+size_t plr_direct_functions(const plr_linking *l, const plr_unit *unit, uint32_t token,
+                            plr_function **found, size_t capacity) {
     const plr_lexed *lexed = unit->lexed;
     uint32_t gid = plr_token_gid(unit, token);
     uint32_t open = plr_active(lexed, unit->activity, token + 1);

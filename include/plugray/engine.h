@@ -127,6 +127,26 @@ typedef struct plr_phase {
 
 typedef struct plr_view_stats {
     plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
+/* A thing that a program draws. */
+typedef struct plr_drawable {
+    const char *kind;                /* "surface", "volume", "background" */
+    const plr_node *node;            /* the Shape, the volume node, the background node */
+    const plr_program_info *program; /* of plr_view_program; things whose texts are equal share it;
+                                        NULL: it is not drawn */
+} plr_drawable;
+
+PLR_API size_t plr_view_drawable_count(const plr_view *view);
+/* False beyond the last. */
+PLR_API bool plr_view_drawable(const plr_view *view, size_t index, plr_drawable *drawable);
+/* The program of a drawable, linked once more, so that its places are those of the drawable's own
+ * effects and not of the first one that has this text. The effects are the view's, the program is
+ * the caller's. NULL if it is not drawn. */
+PLR_API plr_program *plr_view_link_drawable(plr_view *view, size_t index,
+                                            const plr_effect **effects, size_t *effect_count);
+/* Whether an effect of that program is for this drawable: volumes that are cast together have one
+ * program, and each its own effects in it. */
+PLR_API bool plr_view_drawable_has(const plr_view *view, size_t index, size_t effect);
+
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
     double samples;                        /* volume samples asked for in the last draw, at most */
 } plr_view_stats;

@@ -219,6 +219,20 @@ PLR_API const plr_plug_info *plr_program_plug(const plr_program *program, size_t
 PLR_API size_t plr_program_plug_call(const plr_program *program, size_t plug, size_t call,
                                      plr_place *function);
 
+/* A call that the program makes. */
+typedef struct plr_call_info {
+    size_t plug;        /* at which: index of plr_program_plug */
+    size_t effect;      /* whose function it is */
+    unsigned depth;     /* 0: made by the base; 1: within the function of a call of depth 0; ... */
+    plr_place function; /* the name of the function */
+} plr_call_info;
+
+/* The calls in the order in which the program comes to them, stage after stage, from main() on;
+ * what a function calls follows its call, at the first of its calls alone. Plugs that the program
+ * does not reach have no calls here. Writes up to `capacity` of them and returns how many there
+ * are; 0 without memory. */
+PLR_API size_t plr_program_calls(const plr_program *program, plr_call_info *calls, size_t capacity);
+
 #ifdef __cplusplus
 }
 #endif

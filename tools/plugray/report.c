@@ -47,8 +47,7 @@ static const char *find_line(const tool_report *report, plr_place place, size_t 
     return line ? line : own_line(place.file, place.line, length);
 }
 
-/* Text from files must not steer a terminal: controls, U+0080 to U+009F too, become blanks. */
-static void put_plain(FILE *out, const char *text, size_t length) {
+void report_plain(FILE *out, const char *text, size_t length) {
     for (size_t i = 0; i < length && text[i]; i++) {
         unsigned char byte = (unsigned char)text[i];
         bool wide = byte == 0xc2 && i + 1 < length && ((unsigned char)text[i + 1] & 0xe0) == 0x80;
@@ -67,7 +66,6 @@ static void put_caret(FILE *out, const char *line, size_t length, uint32_t colum
     if (length >= 3 && memcmp(line, "\xef\xbb\xbf", 3) == 0) { /* a byte-order mark has no width */
         line += 3;
         last = length -= 3;
-        at = at > 3 ? at - 3 : 0;
     }
     if (at > length)
         at = length;
@@ -78,7 +76,7 @@ static void put_caret(FILE *out, const char *line, size_t length, uint32_t colum
     if (last - first > LINE_SHOWN)
         last = first + LINE_SHOWN;
     fputs("    ", out);
-    put_plain(out, line + first, last - first);
+    report_plain(out, line + first, last - first);
     fputs("\n    ", out);
     for (size_t i = first; i < at; i++)
         if (line[i] == '\t' || !is_continuation(line[i]))
@@ -101,13 +99,13 @@ void report_text(FILE *out, const tool_report *report) {
         plr_place place = diag->place;
         if (place.file) {
             plr_place shown = whole_file_first(place);
-            put_plain(out, place.file, strlen(place.file));
+            report_plain(out, place.file, strlen(place.file));
             fprintf(out, ":%u:%u", shown.line, shown.column);
         } else {
             fputs("plugray", out);
         }
         fprintf(out, ": %s: ", plr_severity_text(diag->severity));
-        put_plain(out, diag->message, strlen(diag->message));
+        report_plain(out, diag->message, strlen(diag->message));
         fprintf(out, " [%s]\n", plr_code_text(diag->code));
         size_t length;
         const char *line = find_line(report, place, &length);

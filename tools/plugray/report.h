@@ -29,4 +29,7 @@ const char *text_line(const char *text, size_t size, uint32_t line, size_t *leng
 /* A line of a file of plugray's own GLSL ("effects/..."). */
 const char *own_line(const char *file, uint32_t line, size_t *length);
 
+/* Text from files must not steer a terminal: controls, U+0080 to U+009F too, become blanks. */
+void report_plain(FILE *out, const char *text, size_t length);
+
 #endif
