@@ -76,6 +76,18 @@ void plr_textures_reload(plr_textures *t, plr_texture *texture) {
     plr_texture_load(t, texture);
 }
 
+void plr_textures_sweep(plr_textures *t) {
+    size_t kept = 0;
+    for (size_t i = 0; i < t->list.count; i++) {
+        plr_texture *texture = t->list.items[i];
+        if (texture->node || texture->kept)
+            t->list.items[kept++] = texture;
+        else
+            release(t, texture);
+    }
+    t->list.count = kept;
+}
+
 bool plr_textures_upload(plr_textures *t) {
     bool fine = true;
     for (size_t i = 0; i < t->list.count; i++) {

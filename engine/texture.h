@@ -49,6 +49,9 @@ typedef struct plr_texture {
     GLuint samplers[2];     /* of the node, by use; 0: not made yet */
     bool mipmapped;         /* for PLR_USE_SURFACE */
     bool stale_mipmaps;     /* they are made when the texture is bound with them */
+    uint64_t revision;      /* of its nodes, when it was loaded */
+    double steepness;       /* of voxels: the gradient that counts as 1; 0: not asked for yet */
+    bool kept;              /* made by the engine, and wanted again when the scene has changed */
 } plr_texture;
 
 typedef struct plr_textures {
@@ -81,6 +84,8 @@ plr_texture *plr_textures_generate(plr_textures *textures, plr_texture_kind kind
 /* Forgets what was loaded from a node whose fields have changed and loads it anew: the record stays
  * where it is, plr_textures_upload gives it a new name. Needs GL if there is one. */
 void plr_textures_reload(plr_textures *textures, plr_texture *texture);
+/* Frees what the engine made and does not want again. Needs GL if there is one. */
+void plr_textures_sweep(plr_textures *textures);
 /* Uploads what is not uploaded yet, allocates what is generated. Needs GL. False if GL refuses. */
 bool plr_textures_upload(plr_textures *textures);
 /* To be called after the engine drew into a generated texture: its mipmaps are made anew. */

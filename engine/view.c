@@ -8,12 +8,12 @@
 #include "engine/state.h"
 #include "engine/targets.h"
 #include "engine/unreached.h"
+#include "engine/update.h"
 #include "engine/volume.h"
 
 /* ---- Making a view ---- */
 
-/* The parts of the view that are set while diagnostics are at hand. */
-static void set_diags(plr_view *view, plr_diags *diags) {
+void plr_view_set_diags(plr_view *view, plr_diags *diags) {
     view->textures.diags = diags;
     view->kitchen.diags = diags;
     view->composer.diags = diags;
@@ -31,44 +31,59 @@ static void init_parts(plr_view *view, const plr_catalog *catalog, plr_diags *di
     view->composer = (plr_composer){.kitchen = &view->kitchen,
                                     .cache = view->engine ? view->engine->cache : NULL,
                                     .check_unreached = !view->engine};
-    set_diags(view, diags);
+    plr_view_set_diags(view, diags);
 }
 
 static void upload(plr_view *view) {
     const plr_gl *gl = &view->engine->gl;
-    plr_phase start = plr_clock();
     plr_world_find(view);
     plr_targets_find(view);
     plr_textures_upload(&view->textures);
-    gl->GenVertexArrays(1, &view->empty_vertex_array);
-    gl->GenFramebuffers(1, &view->color_only);
+    if (!view->empty_vertex_array) {
+        gl->GenVertexArrays(1, &view->empty_vertex_array);
+        gl->GenFramebuffers(1, &view->color_only);
+    }
     gl->Finish();
-    plr_phase end = plr_clock();
-    view->stats.upload = (plr_phase){end.cpu_ms - start.cpu_ms, end.wall_ms - start.wall_ms};
 }
 
-static bool prepare(plr_view *view, plr_diags *diags) {
-    plr_flatten(&view->arena, view->scene, NULL, &view->flat, diags);
+bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags) {
+    plr_flatten(&view->arena, view->scene, eye_to_world, &view->flat, diags);
     view->viewpoint = plr_flat_viewpoint(&view->flat, view->desc.viewpoint);
     if (!view->viewpoint) {
         plr_diags_add(diags, PLR_CODE_UNKNOWN_DEF, (plr_place){0}, "there is no viewpoint '%s'",
                       view->desc.viewpoint);
         return false;
     }
-    plr_phase start = plr_clock();
-    view->desc.dialect = plr_dialect(view->scene, &view->flat, view->desc.dialect, diags);
+    view->viewpoint = plr_flat_bound(&view->flat, view->viewpoint);
+    view->desc.dialect = plr_dialect(view->scene, &view->flat, view->asked_dialect, diags);
     plr_world_prepare(view, diags);
     plr_targets_prepare(view, diags);
     plr_unreached_report(&view->composer);
+    plr_view_note_textures(view);
+    view->revision = plr_scene_revision(view->scene);
+    plr_phase start = plr_clock();
+    if (view->engine)
+        upload(view);
     plr_phase end = plr_clock();
+    view->stats.upload = (plr_phase){end.cpu_ms - start.cpu_ms, end.wall_ms - start.wall_ms};
+    return true;
+}
+
+static bool prepare(plr_view *view, plr_diags *diags) {
+    plr_phase start = plr_clock();
+    plr_matrix eye = plr_matrix_identity();
+    view->asked_dialect = view->desc.dialect;
+    plr_view_live(view, &eye, diags);
+    if (!plr_view_make(view, &eye, diags))
+        return false;
+    plr_phase end = plr_clock(), upload = view->stats.upload;
     plr_phase link = {view->composer.link_cpu_ms, view->composer.link_wall_ms};
     plr_phase compile = {view->composer.compile_cpu_ms, view->composer.compile_wall_ms};
     view->stats.link = link;
     view->stats.compile = compile;
-    view->stats.load = (plr_phase){end.cpu_ms - start.cpu_ms - link.cpu_ms - compile.cpu_ms,
-                                   end.wall_ms - start.wall_ms - link.wall_ms - compile.wall_ms};
-    if (view->engine)
-        upload(view);
+    view->stats.load =
+        (plr_phase){end.cpu_ms - start.cpu_ms - link.cpu_ms - compile.cpu_ms - upload.cpu_ms,
+                    end.wall_ms - start.wall_ms - link.wall_ms - compile.wall_ms - upload.wall_ms};
     return true;
 }
 
@@ -100,7 +115,7 @@ plr_view *plr_view_create(plr_engine *engine, plr_scene *scene, const plr_view_d
     if (!prepare(view, diags))
         plr_view_destroy(&made);
     else
-        set_diags(view, NULL);
+        plr_view_set_diags(view, NULL);
     return made;
 }
 

@@ -29,6 +29,14 @@ typedef struct plr_cast {
     double depth; /* of the nearest centre, in this frame */
 } plr_cast;
 
+/* Voxels that outlive a change of the scene. */
+typedef struct plr_kept_volume {
+    const plr_node *node; /* VolumeData */
+    uint64_t revision;    /* of its nodes, when they were read */
+    plr_texture *voxels;
+    uint32_t size[3];
+} plr_kept_volume;
+
 /* All volumes: most in one cast; one whose author decides how it accumulates is a layer of its own.
  */
 typedef struct plr_volume_pass {
@@ -102,6 +110,7 @@ struct plr_view {
     plr_arena arena;    /* of worlds: renewed when the scene changes */
     plr_arena lasting;  /* of what is kept then: textures, programs, sources */
     uint64_t revision;  /* of the scene, when its worlds were made */
+    int asked_dialect;  /* as in plr_view_desc, which then has what came of it */
     plr_engine *engine; /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;
     plr_scene *scene;
@@ -117,6 +126,10 @@ struct plr_view {
     };
     plr_world *entered; /* the world that the view is at; NULL: the scene */
     plr_targets targets;
+    struct {
+        plr_kept_volume *items;
+        size_t count, capacity;
+    } kept_volumes;
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_view_stats stats;
@@ -134,6 +147,8 @@ void plr_world_prepare(plr_view *view, plr_diags *diags);
 void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
+/* The gradient that counts as 1 where no author says so; never 0. */
+double plr_volume_steepness(plr_view *view, const plr_volume_state *state);
 /* Makes the program of background->node; nothing where a clear colour will do. */
 void plr_background_prepare(plr_view *view, plr_background *background);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);

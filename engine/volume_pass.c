@@ -6,6 +6,7 @@
 
 #include "engine/dialect.h"
 #include "engine/shadows.h"
+#include "engine/update.h"
 #include "engine/volume.h"
 
 /* ---- Data ---- */
@@ -15,10 +16,9 @@ static const plr_node *voxels_node(const plr_node *volume) {
 }
 
 /* Sizes, reference length and step; ISO/IEC 19775-1 41.2 and the project's numbers for voxels. */
-static void measure(plr_view *view, plr_volume_state *state, const plr_image *image) {
+static void measure(plr_view *view, plr_volume_state *state, const uint32_t size[3]) {
     float dimensions[3] = {1, 1, 1};
     plr_node_numbers(state->node, "dimensions", dimensions, 3);
-    const uint32_t size[3] = {image->width, image->height, image->depth};
     double cell = 1;
     for (int i = 0; i < 3; i++) {
         state->dimensions[i] = dimensions[i];
@@ -53,8 +53,26 @@ static bool read_voxels(plr_view *view, const plr_node *node, plr_image *image, 
     return fine;
 }
 
+/* The voxels of a volume that the view had before the scene changed, where they are still those. */
+static const plr_kept_volume *find_kept(plr_view *view, const plr_node *node, uint64_t revision) {
+    for (size_t i = 0; i < view->kept_volumes.count; i++) {
+        plr_kept_volume *kept = &view->kept_volumes.items[i];
+        if (kept->node != node)
+            continue;
+        if (kept->revision == revision)
+            return kept;
+        kept->voxels->kept = false;
+        *kept = view->kept_volumes.items[--view->kept_volumes.count];
+        return NULL;
+    }
+    return NULL;
+}
+
 static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
                         plr_diags *diags) {
+    enum {
+        VOXELS_DEPTH = 2 /* of nodes that voxels are made of */
+    };
     *state = (plr_volume_state){.node = leaf->node, .to_world = leaf->to_world};
     plr_matrix inverse;
     if (!plr_matrix_invert(&leaf->to_world, &inverse)) {
@@ -62,15 +80,38 @@ static bool load_volume(plr_view *view, const plr_leaf *leaf, plr_volume_state *
                       "the volume has no extent: its transformation is singular");
         return false;
     }
+    const plr_node *voxels = voxels_node(leaf->node);
+    uint64_t revision =
+        plr_node_revision(leaf->node) + (voxels ? plr_deep_revision(voxels, VOXELS_DEPTH) : 0);
+    const plr_kept_volume *kept = find_kept(view, leaf->node, revision);
+    if (kept) {
+        state->voxels = kept->voxels;
+        measure(view, state, kept->size);
+        return state->voxel > 0;
+    }
     plr_image image = {0};
     if (!read_voxels(view, leaf->node, &image, diags)) {
         if (view->engine)
             return false;
         image = placeholder(view); /* the effects on it are checked all the same */
     }
-    measure(view, state, &image);
-    state->voxels = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
+    plr_kept_volume made = {leaf->node, revision, NULL, {image.width, image.height, image.depth}};
+    measure(view, state, made.size);
+    made.voxels = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
+    made.voxels->kept = true;
+    state->voxels = made.voxels;
+    *PLR_PUSH(&view->lasting, &view->kept_volumes) = made;
     return state->voxel > 0;
+}
+
+double plr_volume_steepness(plr_view *view, const plr_volume_state *state) {
+    plr_image again = {0};
+    const plr_image *image = &state->voxels->image;
+    if (!image->samples && read_voxels(view, state->node, &again, NULL))
+        image = &again;
+    double strong = image->samples ? plr_image_gradient_percentile(image, state->dimensions) : 0;
+    plr_image_free(&again);
+    return strong > 0 ? strong : 1;
 }
 
 /* ---- Styles ---- */

@@ -27,8 +27,10 @@ static void find_gradient_units(plr_view *view) {
         plr_volume_state *state = &view->volumes.volumes[i];
         if (state->gradient_unit > 0 || !needed)
             continue;
-        double strong = plr_image_gradient_percentile(&state->voxels->image, state->dimensions);
-        state->gradient_unit = strong > 0 ? 1 / strong : 1;
+        plr_texture *voxels = state->voxels;
+        if (!(voxels->steepness > 0))
+            voxels->steepness = plr_volume_steepness(view, state);
+        state->gradient_unit = 1 / voxels->steepness;
     }
 }
 

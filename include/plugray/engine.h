@@ -63,7 +63,8 @@ PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
 typedef struct plr_view_desc {
     /* NULL or "": the first of the file; else a number from 1, a DEF name or a description */
     const char *viewpoint;
-    double time; /* seconds */
+    double time;   /* seconds after the scene was loaded */
+    double aspect; /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
     double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
     int dialect; /* of volume nodes; 0: found out, 2005, or 1: final */
     /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
@@ -79,6 +80,11 @@ typedef struct plr_view plr_view;
 PLR_API plr_view *plr_view_create(plr_engine *engine, plr_scene *scene, const plr_view_desc *desc,
                                   plr_diags *diags);
 PLR_API void plr_view_destroy(plr_view **view);
+/* Brings the scene to another time (plr_scene_set_time, as the view's viewpoint sees it) and the
+ * view to what has changed in the scene since, by time or by setters. What has not changed is kept:
+ * programs, textures, volumes. Needs GL if the view has an engine. False without memory: the view
+ * is then to be destroyed. */
+PLR_API bool plr_view_update(plr_view *view, double time, plr_diags *diags);
 
 typedef struct plr_draw_desc {
     int width, height; /* pixels, at least 1 */
@@ -121,12 +127,6 @@ typedef struct plr_program_info {
 PLR_API size_t plr_view_program_count(const plr_view *view);
 PLR_API const plr_program_info *plr_view_program(const plr_view *view, size_t index);
 
-typedef struct plr_phase {
-    double cpu_ms, wall_ms;
-} plr_phase;
-
-typedef struct plr_view_stats {
-    plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
 /* A thing that a program draws. */
 typedef struct plr_drawable {
     const char *kind;                /* "surface", "volume", "background" */
@@ -147,6 +147,12 @@ PLR_API plr_program *plr_view_link_drawable(plr_view *view, size_t index,
  * program, and each its own effects in it. */
 PLR_API bool plr_view_drawable_has(const plr_view *view, size_t index, size_t effect);
 
+typedef struct plr_phase {
+    double cpu_ms, wall_ms;
+} plr_phase;
+
+typedef struct plr_view_stats {
+    plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
     double samples;                        /* volume samples asked for in the last draw, at most */
 } plr_view_stats;

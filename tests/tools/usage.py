@@ -55,6 +55,10 @@ WRONG = [
     (["render", "box.x3dv", "-o", "a.png", "--dialect", "2006"], "--dialect takes 2005|final"),
     (["render", "box.x3dv", "-o", "a.png", "--set", "Box.size"], "--set takes DEF.field=VALUE"),
     (["render", "box.x3dv", "-o", "a.png", "--set", "Nobody.size=1"], "no node has the DEF name Nobody"),
+    (["render", "box.x3dv", "-o", "a.png", "--time", "-1"], "--time takes seconds from 0 to 1e9"),
+    (["render", "box.x3dv", "-o", "a.png", "--frames", "0"], "--frames takes a whole number"),
+    (["render", "box.x3dv", "-o", "a.png", "--frames", "2", "--fps", "0"], "--fps takes a number above 0"),
+    (["render", "box.x3dv", "-o", "a.png", "--fps", "2"], "--fps goes with --frames"),
     (["dump", "box.x3dv"], "-d DIR is missing"),
     (["check"], "SCENE is missing"),
     (["check", "box.x3dv", "--format", "xml"], "--format takes text|json|sarif"),
@@ -66,7 +70,7 @@ WRONG = [
 for arguments, message in WRONG:
     run = plugray.expect(2, *arguments, stderr=message)
     check(not run.stdout, "nothing on standard output")
-for option in ("--error", "--time", "--frames", "--fps", "--pick"):
+for option in ("--error", "--pick"):
     plugray.expect(2, "render", "box.x3dv", "-o", "a.png", option, "1",
                    stderr=f"{option} is not in this version")
 check_equal(sorted(path.name for path in plugray.folder.iterdir()), ["base.frag", "box.x3dv"],

@@ -6,6 +6,7 @@
 
 #include "tools/plugray/commands.h"
 #include "tools/plugray/files.h"
+#include "tools/plugray/frames.h"
 #include "tools/plugray/json.h"
 #include "tools/plugray/progress.h"
 #include "tools/plugray/scene.h"
@@ -21,6 +22,7 @@ typedef struct render_job {
     plr_draw_desc draw;
     plr_backend backend;
     double step;
+    frame_plan frames;
     long repeat; /* 0: one draw without a warm-up */
     int stats;   /* one of the below */
     tool_scene scene;
@@ -115,7 +117,7 @@ static bool read_options(render_job *job) {
     const tool_arguments *a = job->arguments;
     long samples = 1;
     if (!read_outputs(job) || !read_size(job) || !read_backend(job) || !check_probes(job) ||
-        !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
+        !frames_read(a, &job->frames) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
         !option_integer(a, OPTION_SAMPLES, 1, 4096, &samples) ||
         !option_integer(a, OPTION_REPEAT, 1, 1000000, &job->repeat))
         return false;
@@ -200,18 +202,36 @@ static void print_probes(const render_job *job) {
     }
 }
 
-static void write_results(render_job *job) {
+static void write_picture(render_job *job, long frame) {
     plr_diags *diags = job->scene.diags;
-    if (job->path && folder_make_above(job->path, diags))
-        plr_picture_write(&job->picture, job->path,
+    char *path = job->path ? frames_path(&job->frames, job->path, frame) : NULL;
+    if (path && folder_make_above(path, diags))
+        plr_picture_write(&job->picture, path,
                           option_value(job->arguments, OPTION_TRANSPARENT) != NULL, diags);
+    free(path);
     progress(NULL);
     print_probes(job);
+}
+
+static void print_stats(const render_job *job) {
     render_stats stats = {.view = job->view, .load = job->scene.load, .draw = job->drawn};
     if (job->stats == STATS_TEXT)
         stats_text(stdout, &stats);
     else if (job->stats == STATS_JSON)
         stats_json(stdout, &stats);
+}
+
+static bool draw_frames(render_job *job) {
+    for (long i = 0; i == 0 || i < job->frames.count; i++) {
+        if (i > 0 && !plr_view_update(job->view, frames_time(&job->frames, i), job->scene.diags))
+            return false;
+        progress("drawing");
+        if (!draw(job))
+            return false;
+        progress("writing");
+        write_picture(job, i);
+    }
+    return true;
 }
 
 /* Returns the status to end with where it is not the diagnostics that decide. */
@@ -224,11 +244,9 @@ static int render(render_job *job) {
     job->view = plr_view_create(job->engine, job->scene.scene, &job->scene.view, job->scene.diags);
     if (!job->view)
         return tool_view_failure(&job->scene);
-    progress("drawing");
-    if (!draw(job))
+    if (!draw_frames(job))
         return STATUS_MACHINE;
-    progress("writing");
-    write_results(job);
+    print_stats(job);
     return STATUS_FINE;
 }
 
@@ -250,6 +268,8 @@ int command_render(const tool_arguments *arguments) {
     if (status == STATUS_FINE) {
         job.scene.view.viewpoint = option_value(arguments, OPTION_VIEWPOINT);
         job.scene.view.step = job.step;
+        job.scene.view.time = job.frames.start;
+        job.scene.view.aspect = (double)job.draw.width / job.draw.height;
         if (job.scene.scene)
             status = render(&job);
         int told = tool_scene_finish(&job.scene);

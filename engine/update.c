@@ -1,0 +1,128 @@
+/* A view in time: the scene as its viewer sees it, and what has to be made anew when it changes. */
+#include "engine/update.h"
+
+#include <string.h>
+
+#include "engine/frame.h"
+#include "engine/targets.h"
+
+/* ---- The scene at a time ---- */
+
+/* Depths do not matter to sensors. */
+static plr_viewer viewer_at(const plr_viewpoint *viewpoint, const plr_node *bound, double aspect) {
+    plr_viewer viewer = {.viewpoint = bound};
+    plr_matrix projection, view;
+    plr_viewpoint_matrices(viewpoint, aspect > 0 ? aspect : 4.0 / 3, 1, (double[]){0.1, 1e4},
+                           &projection, &view);
+    memcpy(viewer.eye_to_world, viewpoint->to_world.m, sizeof viewer.eye_to_world);
+    memcpy(viewer.world_to_eye, view.m, sizeof view.m);
+    memcpy(viewer.projection, projection.m, sizeof projection.m);
+    return viewer;
+}
+
+/* What happens in the scene may move the viewer, or put another one in his place, and that may be
+ * seen by what happens: it is looked at again from where he comes to stand. */
+bool plr_view_live(plr_view *view, plr_matrix *eye_to_world, plr_diags *diags) {
+    enum {
+        LOOKS = 3
+    };
+    jmp_buf out_of_memory;
+    plr_arena arena;
+    plr_arena_init(&arena, NULL, &out_of_memory);
+    if (setjmp(out_of_memory)) {
+        plr_arena_finish(&arena);
+        longjmp(*view->arena.out_of_memory, 1);
+    }
+    plr_flat flat;
+    plr_flatten(&arena, view->scene, NULL, &flat, NULL);
+    const plr_viewpoint *chosen = plr_flat_viewpoint(&flat, view->desc.viewpoint);
+    const plr_viewpoint *used = chosen;
+    bool same = !chosen;
+    for (int i = 0; i < LOOKS && !same; i++) {
+        *eye_to_world = used->to_world;
+        plr_viewer viewer = viewer_at(used, chosen->node, view->desc.aspect);
+        plr_scene_set_time(view->scene, view->desc.time, &viewer, diags);
+        const plr_node *node = used->node, *first = chosen->node;
+        plr_flatten(&arena, view->scene, eye_to_world, &flat, NULL);
+        chosen = plr_flat_viewpoint(&flat, view->desc.viewpoint);
+        used = chosen ? plr_flat_bound(&flat, chosen) : NULL;
+        same = !used || chosen->node != first ||
+               (used->node == node &&
+                memcmp(used->to_world.m, eye_to_world->m, sizeof used->to_world.m) == 0);
+        if (used)
+            *eye_to_world = used->to_world;
+    }
+    plr_arena_finish(&arena);
+    return chosen != NULL;
+}
+
+/* ---- What has changed ---- */
+
+uint64_t plr_deep_revision(const plr_node *node, int depth) {
+    uint64_t sum = plr_node_revision(node);
+    for (size_t i = 0; depth > 0 && i < plr_node_field_count(node); i++) {
+        const plr_field *field = plr_node_field_at(node, i);
+        if (plr_type_kind(field->type) != PLR_NODE || strcmp(field->name, "metadata") == 0 ||
+            strcmp(field->name, "effects") == 0)
+            continue;
+        for (size_t k = 0; k < field->count; k++)
+            if (field->value.nodes[k])
+                sum += plr_deep_revision(field->value.nodes[k], depth - 1);
+    }
+    return sum;
+}
+
+enum {
+    TEXTURE_DEPTH = 2 /* a cube map or a 3D texture, its images, their properties */
+};
+
+void plr_view_note_textures(plr_view *view) {
+    for (size_t i = 0; i < view->textures.list.count; i++) {
+        plr_texture *texture = view->textures.list.items[i];
+        if (texture->node && !texture->generated)
+            texture->revision = plr_deep_revision(texture->node, TEXTURE_DEPTH);
+    }
+}
+
+static void reload_textures(plr_view *view) {
+    for (size_t i = 0; i < view->textures.list.count; i++) {
+        plr_texture *texture = view->textures.list.items[i];
+        if (texture->node && !texture->generated &&
+            texture->revision != plr_deep_revision(texture->node, TEXTURE_DEPTH))
+            plr_textures_reload(&view->textures, texture);
+    }
+}
+
+/* ---- Updating ---- */
+
+static void remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
+    plr_view_set_diags(view, diags);
+    plr_targets_finish(view);
+    plr_world_finish(view);
+    memset(&view->world, 0, sizeof view->world);
+    memset(&view->targets, 0, sizeof view->targets);
+    plr_textures_sweep(&view->textures);
+    jmp_buf *out_of_memory = view->arena.out_of_memory;
+    plr_arena_finish(&view->arena);
+    plr_arena_init(&view->arena, NULL, out_of_memory);
+    reload_textures(view);
+    plr_view_make(view, eye, diags);
+    plr_view_set_diags(view, NULL);
+}
+
+bool plr_view_update(plr_view *view, double time, plr_diags *diags) {
+    jmp_buf out_of_memory;
+    volatile bool fine = true;
+    view->arena.out_of_memory = view->lasting.out_of_memory = &out_of_memory;
+    if (setjmp(out_of_memory) == 0) {
+        plr_matrix eye = plr_matrix_identity();
+        view->desc.time = time;
+        if (plr_view_live(view, &eye, diags) && view->revision != plr_scene_revision(view->scene))
+            remake(view, &eye, diags);
+    } else {
+        fine = false;
+        plr_view_set_diags(view, NULL);
+        plr_diags_add(diags, PLR_CODE_NO_MEMORY, (plr_place){0}, "there is not enough memory");
+    }
+    return fine;
+}
