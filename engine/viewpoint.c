@@ -72,6 +72,8 @@ void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double
     if (!(angle > 0 && angle < 3.14159))
         angle = 0.785398163397448;
     double half = tan(angle / 2);
-    double x = aspect >= 1 ? half * aspect : half, y = aspect >= 1 ? half : half / aspect;
+    bool wide = aspect >= 1 ||
+                (viewpoint->node && plr_node_bool(viewpoint->node, "fieldOfViewForceVertical"));
+    double x = wide ? half * aspect : half, y = wide ? half : half / aspect;
     *projection = plr_matrix_perspective((double[]){-x, -y, x, y}, near, far);
 }
