@@ -32,6 +32,16 @@ const char *plr_source_plug(const plr_source *source, size_t index, size_t *leng
     return name->text;
 }
 
+const char *plr_source_plug_lists(const plr_source *source, size_t index, size_t *length) {
+    const plr_plug *plug = &source->lexed.plugs.items[index];
+    *length = plug->text_end - plug->text_begin;
+    return source->text + plug->text_begin;
+}
+
+plr_place plr_source_plug_place(const plr_source *source, size_t index) {
+    return plr_source_place(source, source->lexed.plugs.items[index].offset);
+}
+
 const char *plr_token_text(const plr_lexed *lexed, const plr_token *token, size_t *length) {
     if (token->flags & PLR_TF_SPLICED) {
         const plr_ident *ident = &lexed->idents.items[token->value];

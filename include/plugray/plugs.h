@@ -49,6 +49,10 @@ PLR_API const char *plr_source_text(const plr_source *source, size_t *length);
  */
 PLR_API size_t plr_source_plug_count(const plr_source *source);
 PLR_API const char *plr_source_plug(const plr_source *source, size_t index, size_t *length);
+/* Its argument lists as written, "(c, tex, coord) (c, coord)", of that length; and where the
+ * comment begins. */
+PLR_API const char *plr_source_plug_lists(const plr_source *source, size_t index, size_t *length);
+PLR_API plr_place plr_source_plug_place(const plr_source *source, size_t index);
 
 /* ---- Describing a program ------------------------------------------------------------------ */
 

@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "engine/catalog.h"
+#include <plugray/engine.h>
 #include "tools/plugray/json.h"
-#include "tools/plugray/listing.h"
 #include "tools/plugray/options.h"
 
 typedef enum section {
@@ -120,81 +119,52 @@ static void print_meaning(const char *plug, plr_stage stage) {
     }
 }
 
-/* The units of one base, alone or with one effect that plugray brings, and the plugs that the last
- * of them offers. */
-static void list_offers(const plr_catalog *catalog, const plr_sources *base, const char *name) {
-    const plr_sources *units = name ? plr_catalog_units(catalog, name) : NULL;
-    plr_effect effect = {.name = name, .builtin = true};
-    if (units) {
-        effect.sources = units->items;
-        effect.source_count = units->count;
+/* The plug is offered in the text before. */
+static bool is_again(const plr_source *source, size_t index) {
+    size_t length, other_length;
+    const char *name = plr_source_plug(source, index, &length);
+    for (size_t i = 0; i < index; i++) {
+        const char *other = plr_source_plug(source, i, &other_length);
+        if (other_length == length && memcmp(other, name, length) == 0)
+            return true;
     }
-    plr_link_desc desc = {.base = base->items,
-                          .base_count = base->count,
-                          .library = plr_catalog_library(catalog)->items,
-                          .library_count = plr_catalog_library(catalog)->count,
-                          .effects = &effect,
-                          .effect_count = units ? 1 : 0};
-    plr_program *program = plr_link(&desc, NULL);
-    for (size_t i = 0; program && i < plr_program_plug_count(program); i++)
-        if (!units == (plr_program_plug(program, i)->effect == PLR_NO_EFFECT)) {
-            print_plug(program, i, &effect);
-            print_meaning(plr_program_plug(program, i)->name, plr_program_plug(program, i)->stage);
-        }
-    plr_program_destroy(&program);
+    return false;
 }
 
-/* "surface/Material.glsl", "surface/Material.vert.glsl" -> "surface/Material"; false for bases. */
-static bool effect_of_file(const char *path, const char *base, char name[256]) {
-    snprintf(name, 256, "%s", path);
-    char *slash = strrchr(name, '/'), *dot = slash ? strchr(slash, '.') : NULL;
-    if (!dot)
-        return false;
-    *dot = '\0';
-    return strcmp(name, base) != 0;
-}
-
-static void list_folder(const plr_catalog *catalog, const char *base_name, const char *folder) {
-    const plr_sources *base = plr_catalog_units(catalog, base_name);
-    const char *path, *text;
-    size_t length;
-    char last[256] = "";
-    for (size_t i = 0; (path = plr_effects_file(i, &text, &length)); i++) {
-        char name[256];
-        if (strncmp(path, folder, strlen(folder)) != 0 || !effect_of_file(path, base_name, name) ||
-            strcmp(name, last) == 0)
+static void print_file(const char *path, const plr_source *source) {
+    plr_stage stage = plr_source_stage(source);
+    for (size_t i = 0; i < plr_source_plug_count(source); i++) {
+        char name[64];
+        size_t length, lists_length;
+        const char *text = plr_source_plug(source, i, &length);
+        const char *lists = plr_source_plug_lists(source, i, &lists_length);
+        plr_place place = plr_source_plug_place(source, i);
+        if (i == 0)
+            printf("effects/%s:\n", path);
+        if (is_again(source, i))
             continue;
-        list_offers(catalog, base, name);
-        strcpy(last, name);
+        snprintf(name, sizeof name, "%.*s", (int)length, text);
+        printf("%s %.*s %s\n    offered at %u:%u\n", name, (int)lists_length, lists,
+               plr_stage_text(stage), place.line, place.column);
+        print_meaning(name, stage);
     }
 }
 
-/* The plugs of the geometry stage, which no program has but one whose author writes its main(). */
-static void list_geometry(void) {
-    for (size_t i = 0; i < ROWS; i++)
-        if (rows[i].stage == PLR_GEOMETRY) {
-            printf("%s (%s) geometry\n", rows[i].name, rows[i].parameters);
-            print_meaning(rows[i].name, PLR_GEOMETRY);
-        }
+static plr_stage stage_of(const char *path) {
+    return strstr(path, ".vert.")   ? PLR_VERTEX
+           : strstr(path, ".geom.") ? PLR_GEOMETRY
+                                    : PLR_FRAGMENT;
 }
 
 int print_own_plugs(void) {
-    static const struct {
-        const char *base, *folders[4];
-    } kinds[] = {{"surface/surface", {"surface/", "lights/", "fog/", "output/"}},
-                 {"volume/raycaster", {"volume/"}}};
-    plr_catalog *catalog = plr_catalog_create(NULL);
-    if (!catalog)
-        return STATUS_MACHINE;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        const plr_sources *base = plr_catalog_units(catalog, kinds[i].base);
-        printf("%s%s:\n", i ? "\n" : "", kinds[i].base);
-        list_offers(catalog, base, NULL);
-        if (i == 0)
-            list_geometry();
-        for (size_t j = 0; j < 4 && kinds[i].folders[j]; j++)
-            list_folder(catalog, kinds[i].base, kinds[i].folders[j]);
+    const char *path, *text;
+    size_t length;
+    for (size_t i = 0; (path = plr_effects_file(i, &text, &length)); i++) {
+        plr_source *source = plr_source_read(stage_of(path), text, length, NULL, NULL, NULL);
+        if (!source)
+            return STATUS_MACHINE;
+        print_file(path, source);
+        plr_source_destroy(&source);
     }
-    plr_catalog_destroy(&catalog);
     return STATUS_FINE;
 }
