@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/image_movie.h"
 #include "engine/node_file.h"
 #include "engine/volume_internal.h"
 
@@ -34,6 +35,17 @@ static bool decode_flat(void *user, plr_scene *scene, const plr_bytes *bytes, pl
     return true;
 }
 
+static bool decode_movie(void *user, plr_scene *scene, const plr_bytes *bytes, plr_place place,
+                         plr_diags *diags) {
+    if (!plr_movie_is(bytes->data, bytes->length)) /* a GIF, or the first of a row of pictures */
+        return decode_flat(user, scene, bytes, place, diags);
+    const char *fault = plr_movie_decode(bytes->data, bytes->length, user);
+    if (fault)
+        plr_diags_add(diags, PLR_CODE_BAD_IMAGE, place, "%s cannot be read: %s", bytes->name,
+                      fault);
+    return !fault;
+}
+
 static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_image *image,
                         plr_diags *diags) {
     (void)scene;
@@ -44,7 +56,9 @@ static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_image *im
 static bool from_urls(plr_scene *scene, const plr_node *texture, plr_image *image,
                       plr_diags *diags) {
     return plr_node_bool(texture, "load") &&
-           plr_node_file(scene, texture, decode_flat, image, diags);
+           plr_node_file(scene, texture,
+                         plr_node_is(texture, "MovieTexture") ? decode_movie : decode_flat, image,
+                         diags);
 }
 
 /* ---- Cube maps ---- */

@@ -1,5 +1,9 @@
 #include "engine/node_file.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 static plr_place url_place(const plr_field *urls, size_t index) {
     const plr_origin *origin = &urls->value.strings[index].origin;
     if (!origin->file)
@@ -20,16 +24,71 @@ static void repeat_diags(const plr_diags *from, plr_diags *to, bool as_warnings)
     }
 }
 
+/* ---- Numbered frames ---- */
+
+/* A movie may be a row of pictures: "fire@counter(4).png" is fire0000.png, fire0001.png, ..., and
+ * so is "fire%4d.png". */
+typedef struct counter {
+    size_t start, end; /* of what the number stands for */
+    int digits;        /* at least */
+} counter;
+
+static bool find_counter(const char *text, counter *c) {
+    static const struct { const char *head, *tail; } forms[] = {{"@counter(", ")"}, {"%", "d"}};
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        const char *head = strstr(text, forms[i].head);
+        char *end = NULL;
+        if (!head)
+            continue;
+        const char *number = head + strlen(forms[i].head);
+        long digits = *number >= '0' && *number <= '9' ? strtol(number, &end, 10) : 1;
+        const char *tail = end ? end : number;
+        if (digits > 20 || strncmp(tail, forms[i].tail, strlen(forms[i].tail)) != 0)
+            continue;
+        *c = (counter){(size_t)(head - text), (size_t)(tail + strlen(forms[i].tail) - text),
+                       digits < 1 ? 1 : (int)digits};
+        return true;
+    }
+    return false;
+}
+
+/* The first frame has the number 0 or 1. */
+static bool load_first_frame(plr_scene *scene, const plr_string *url, const counter *c,
+                             plr_bytes *bytes, plr_diags *diags) {
+    size_t size = url->length + 32;
+    char *text = malloc(size);
+    bool loaded = false;
+    for (int frame = 0; text && frame < 2 && !loaded; frame++) {
+        int length = snprintf(text, size, "%.*s%0*d%s", (int)c->start, url->text, c->digits, frame,
+                              url->text + c->end);
+        plr_string name = {text, (size_t)length, url->origin};
+        loaded = plr_scene_load(scene, &name, true, bytes, frame ? diags : NULL);
+    }
+    free(text);
+    return loaded;
+}
+
+static bool load(plr_scene *scene, const plr_node *node, const plr_string *url, plr_bytes *bytes,
+                 plr_diags *diags) {
+    counter c;
+    bool is_short = url->length < 4096; /* a name, not data */
+    if (is_short && plr_node_is(node, "MovieTexture") && find_counter(url->text, &c))
+        return load_first_frame(scene, url, &c, bytes, diags);
+    return plr_scene_load(scene, url, true, bytes, diags);
+}
+
+/* ---- Urls ---- */
+
 typedef enum outcome {
     FINE,
     NOT_LOADED,
     NOT_UNDERSTOOD
 } outcome;
 
-static outcome try_url(plr_scene *scene, const plr_field *urls, size_t index,
+static outcome try_url(plr_scene *scene, const plr_node *node, const plr_field *urls, size_t index,
                        plr_file_decoder decode, void *user, plr_diags *diags) {
     plr_bytes bytes;
-    if (!plr_scene_load(scene, &urls->value.strings[index], true, &bytes, diags))
+    if (!load(scene, node, &urls->value.strings[index], &bytes, diags))
         return NOT_LOADED;
     bool fine = decode(user, scene, &bytes, url_place(urls, index), diags);
     plr_bytes_free(&bytes);
@@ -49,7 +108,7 @@ bool plr_node_file(plr_scene *scene, const plr_node *node, plr_file_decoder deco
     bool any = false;
     for (size_t i = 0; first && faults && i < urls->count && last != FINE; i++) {
         plr_diags *now = plr_diags_create(NULL);
-        last = try_url(scene, urls, i, decode, user, now);
+        last = try_url(scene, node, urls, i, decode, user, now);
         any = any || last == NOT_UNDERSTOOD;
         if (last == FINE) /* what is said about a file that is taken stays as it is */
             repeat_diags(faults, diags, true);

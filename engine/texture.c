@@ -72,6 +72,7 @@ static void release(plr_textures *t, plr_texture *texture) {
 
 void plr_textures_reload(plr_textures *t, plr_texture *texture) {
     release(t, texture);
+    t->bytes -= texture->bytes;
     *texture = (plr_texture){.node = texture->node};
     plr_texture_load(t, texture);
 }

@@ -45,6 +45,7 @@ typedef struct plr_texture {
     bool generated, depth;
     uint32_t width, height; /* of the finest level */
     plr_image image;        /* freed by the upload */
+    size_t bytes;           /* that GL needs for it, without mipmaps made by GL */
     GLuint name;            /* 0: not uploaded */
     GLuint samplers[2];     /* of the node, by use; 0: not made yet */
     bool mipmapped;         /* for PLR_USE_SURFACE */
@@ -63,7 +64,9 @@ typedef struct plr_textures {
         plr_texture **items;
         size_t count, capacity;
     } list;
-    GLuint clamping; /* a sampler object for transfer functions and voxels: linear, clamped */
+    size_t max_bytes; /* of the textures of all nodes together; 0: 4 GiB */
+    size_t bytes;     /* that they have now */
+    GLuint clamping;  /* a sampler object for transfer functions and voxels: linear, clamped */
 } plr_textures;
 
 /* 2, 3, or 6 for cubes: the macro f_DIMENSIONS. */

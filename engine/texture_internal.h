@@ -4,6 +4,8 @@
 
 #include "engine/texture.h"
 
+#define PLR_TEXTURES_MAX_BYTES ((size_t)4 << 30)
+
 /* Fills everything but GL names from the node. False if it is the node of no texture. */
 bool plr_texture_load(plr_textures *textures, plr_texture *texture);
 /* Makes the GL objects. False if GL refuses. */

@@ -137,6 +137,35 @@ static void stand_in(plr_texture *texture) {
         memset(texture->image.samples, 255, bytes);
 }
 
+/* ---- Memory ---- */
+
+static size_t bytes_of(const plr_texture *texture) {
+    const plr_image *image = &texture->image;
+    size_t faces = plr_texture_dimensions(texture) == PLR_TEXTURE_CUBE ? 6 : 1, samples = 0;
+    if (texture->generated)
+        return (size_t)texture->width * texture->height * faces * (texture->depth ? 4 : 8);
+    for (uint32_t level = 0; level <= image->mipmaps; level++)
+        samples += plr_image_level_samples(image, level);
+    return samples * (image->type == PLR_FLOAT32 ? 4 : 2); /* bytes go up as 16 bits */
+}
+
+/* Whether it fits beside the others; reports if not. */
+static bool take_memory(plr_textures *t, plr_texture *texture) {
+    size_t most = t->max_bytes ? t->max_bytes : PLR_TEXTURES_MAX_BYTES;
+    texture->bytes = bytes_of(texture);
+    if (texture->bytes <= most && t->bytes <= most - texture->bytes) {
+        t->bytes += texture->bytes;
+        return true;
+    }
+    plr_diags_add(t->diags, PLR_CODE_LIMIT, plr_node_place(texture->node),
+                  "the textures of the scene need more than %zu MiB; this one is left out",
+                  most >> 20);
+    texture->bytes = 0;
+    texture->width = texture->height = 1;
+    plr_image_free(&texture->image);
+    return false;
+}
+
 bool plr_texture_load(plr_textures *t, plr_texture *texture) {
     const struct loader *loader = NULL;
     for (size_t i = 0; !loader && i < sizeof loaders / sizeof *loaders; i++)
@@ -146,7 +175,7 @@ bool plr_texture_load(plr_textures *t, plr_texture *texture) {
         return false;
     texture->kind = loader->kind;
     texture->generated = loader->generated;
-    texture->failed = !loader->load(t, texture);
+    texture->failed = !loader->load(t, texture) || !take_memory(t, texture);
     plr_texture_alpha found = PLR_ALPHA_OPAQUE;
     if (texture->generated) {
         texture->components = texture->depth ? 1 : 4;

@@ -1,4 +1,5 @@
 /* Textures as GL objects. Needs GL. */
+#include "engine/image_internal.h"
 #include "engine/texture_internal.h"
 
 #include <stdlib.h>
@@ -90,8 +91,41 @@ static void set_parameters(const plr_gl *gl, const plr_texture *texture, GLenum 
     set_swizzle(gl, texture, target);
 }
 
+/* ---- Limits of GL ---- */
+
+static void find_limits(const plr_gl *gl, const plr_texture *texture, uint32_t limits[3]) {
+    int dimensions = plr_texture_dimensions(texture);
+    GLint most = 1024;
+    gl->GetIntegerv(dimensions == PLR_TEXTURE_3D     ? GL_MAX_3D_TEXTURE_SIZE
+                    : dimensions == PLR_TEXTURE_CUBE ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                     : GL_MAX_TEXTURE_SIZE,
+                    &most);
+    limits[0] = limits[1] = most < 1 ? 1 : (uint32_t)most;
+    limits[2] = dimensions == PLR_TEXTURE_3D ? limits[0] : 6;
+}
+
+/* A texture that GL cannot hold is made smaller: coordinates go from 0 to 1 all the same. */
+static bool fit(plr_textures *t, plr_texture *texture) {
+    uint32_t limits[3];
+    find_limits(t->gl, texture, limits);
+    if (!texture->node || (texture->width <= limits[0] && texture->height <= limits[1] &&
+                           texture->image.depth <= limits[2]))
+        return true;
+    plr_diags_add_as(
+        t->diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(texture->node),
+        "GL takes textures of at most %u texels a side; one of %u x %u is made smaller", limits[0],
+        texture->width, texture->height);
+    texture->width = texture->width < limits[0] ? texture->width : limits[0];
+    texture->height = texture->height < limits[1] ? texture->height : limits[1];
+    return texture->generated || plr_image_shrink(&texture->image, limits);
+}
+
+/* ---- All ---- */
+
 bool plr_texture_upload(plr_textures *t, plr_texture *texture) {
     const plr_gl *gl = t->gl;
+    if (!fit(t, texture))
+        return false;
     GLenum target = plr_texture_target(texture->kind);
     while (gl->GetError() != GL_NO_ERROR)
         ;

@@ -192,6 +192,25 @@ static const char *joined_name(plr_scene *scene, const char *referrer, const cha
     return plr_arena_format(&scene->arena, "%.*s/%s", (int)(slash - referrer), referrer, url);
 }
 
+/* The folder that castle-data:/ means: the nearest folder called "data" in which the main file
+ * lies, else the one beside it. */
+static const char *data_folder(plr_scene *scene) {
+    const char *folder = x3d_file_of_name(scene, NULL)->folder;
+    size_t length = strlen(folder);
+    for (size_t i = length; i >= 5; i--)
+        if ((i == length || folder[i] == '/') && strncmp(folder + i - 5, "/data", 5) == 0)
+            return plr_arena_copy(&scene->arena, folder, i);
+    return plr_arena_format(&scene->arena, "%s/data", folder);
+}
+
+/* castle-data:/a.png, which Castle Game Engine resolves in the data folder of an application. */
+static const char *path_of_data_url(plr_scene *scene, const char *url) {
+    url += strlen("castle-data:");
+    while (*url == '/')
+        url++;
+    return plr_arena_format(&scene->arena, "%s/%s", data_folder(scene), url);
+}
+
 static x3d_failure locate_path(plr_scene *scene, const char *folder, const char *path,
                                x3d_located *located) {
     located->path = *path == '/' ? path : plr_arena_format(&scene->arena, "%s/%s", folder, path);
@@ -218,8 +237,11 @@ x3d_failure x3d_locate(plr_scene *scene, const char *folder, const char *referre
     located->name = text;
     if (!length)
         return fail(PLR_CODE_MISSING_FILE, "is empty");
+    bool is_data_url = has_scheme(text, "castle-data");
     if (has_scheme(text, "file"))
         text = path_of_file_url(scene, text);
+    else if (is_data_url)
+        text = path_of_data_url(scene, text);
     else if (has_scheme(text, "http") || has_scheme(text, "https"))
         return scene->rules.allow_network && scene->rules.fetch
                    ? fine
@@ -227,6 +249,11 @@ x3d_failure x3d_locate(plr_scene *scene, const char *folder, const char *referre
     else if (scheme_length(text))
         return fail(PLR_CODE_NOT_ALLOWED, "is of a kind that plugray does not read");
     located->name = joined_name(scene, referrer, text);
+    const x3d_file *main_file = x3d_file_of_name(scene, NULL);
+    size_t main_length = strlen(main_file->folder);
+    if (is_data_url && strncmp(text, main_file->folder, main_length) == 0 &&
+        text[main_length] == '/')
+        located->name = joined_name(scene, main_file->name, text + main_length + 1);
     return locate_path(scene, folder, text, located);
 }
 
