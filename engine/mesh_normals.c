@@ -126,6 +126,40 @@ static void finish_normal(const double sum[3], const double *face, double sign, 
         normal[axis] = (float)(chosen[axis] * scale);
 }
 
+/* The angle of a polygon at a corner, at most pi. */
+static double corner_angle(const plr_polygons *polygons, const plr_face *face, uint32_t corner) {
+    const plr_corner *corners = polygons->corners.items + face->first;
+    uint32_t before = corner ? corner - 1 : face->count - 1;
+    uint32_t after = corner + 1 < face->count ? corner + 1 : 0;
+    const float *at = polygons->points + (size_t)corners[corner].coord * 3;
+    const float *a = polygons->points + (size_t)corners[before].coord * 3;
+    const float *b = polygons->points + (size_t)corners[after].coord * 3;
+    double u[3], v[3];
+    for (int axis = 0; axis < 3; axis++) {
+        u[axis] = (double)a[axis] - (double)at[axis];
+        v[axis] = (double)b[axis] - (double)at[axis];
+    }
+    double cross[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                       u[0] * v[1] - u[1] * v[0]};
+    return atan2(sqrt(dot(cross, cross)), dot(u, v));
+}
+
+/* Adds the normal of a face to those of its corners, by the angle that it has there: so the sum
+ * does not depend on how a flat area is cut into faces. */
+static void add_face_normal(plr_polygons *polygons, const plr_face *face, const double normal[3],
+                            bool flat, uint32_t *parents, double (*sums)[3]) {
+    double length = sqrt(dot(normal, normal));
+    for (uint32_t i = 0; i < face->count; i++) {
+        uint32_t root = find_set(parents, face->first + i);
+        polygons->corners.items[face->first + i].normal = root;
+        if (!(length > 0) || (flat && i))
+            continue; /* a flat face counts once */
+        double weight = flat ? 1 : corner_angle(polygons, face, i);
+        for (int axis = 0; axis < 3; axis++)
+            sums[root][axis] += normal[axis] / length * weight;
+    }
+}
+
 void plr_polygons_make_normals(plr_polygons *polygons, double crease, bool clockwise) {
     size_t face_count = polygons->faces.count, corner_count = polygons->corners.count;
     double(*face_normals)[3] = plr_arena_array(polygons->arena, face_count, sizeof *face_normals);
@@ -135,16 +169,9 @@ void plr_polygons_make_normals(plr_polygons *polygons, double crease, bool clock
     uint32_t *parents = group_corners(polygons, face_normals, crease);
 
     float *normals = plr_arena_array(polygons->arena, corner_count, 3 * sizeof *normals);
-    for (size_t f = 0; f < face_count; f++) {
-        plr_face face = polygons->faces.items[f];
-        for (uint32_t i = face.first; i < face.first + face.count; i++) {
-            uint32_t root = find_set(parents, i);
-            polygons->corners.items[i].normal = root;
-            if (crease > 0 || i == face.first) /* a flat face counts once */
-                for (int axis = 0; axis < 3; axis++)
-                    sums[root][axis] += face_normals[f][axis];
-        }
-    }
+    for (size_t f = 0; f < face_count; f++)
+        add_face_normal(polygons, &polygons->faces.items[f], face_normals[f], !(crease > 0),
+                        parents, sums);
     for (size_t f = 0; f < face_count; f++) {
         plr_face face = polygons->faces.items[f];
         for (uint32_t i = face.first; i < face.first + face.count; i++)

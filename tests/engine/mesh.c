@@ -41,6 +41,23 @@ static void test_faces_and_crease(void) {
     finish(&f);
 }
 
+/* Smooth normals do not depend on how flat sides are cut. */
+static void test_cut_sides(void) {
+    fixture f = build("IndexedFaceSet { creaseAngle 3 coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 "
+                      "0, 0 1 0, 0 0 1, 1 "
+                      "0 1, 1 1 1, 0 1 1 ] } coordIndex [ 3 2 1 -1 3 1 0 -1 4 5 6 -1 4 6 7 -1 0 1 "
+                      "5 4 -1 2 3 7 -1 2 "
+                      "7 6 -1 1 2 6 5 -1 3 0 4 7 ] }");
+    CHECK_INT(f.mesh.vertex_count, 8);
+    double worst = 0;
+    for (size_t i = 0; f.built && i < (size_t)f.mesh.vertex_count * 3; i++) {
+        double expected = (f.mesh.positions[i] > 0.5f ? 1 : -1) / sqrt(3);
+        worst = fmax(worst, fabs((double)f.mesh.normals[i] - expected));
+    }
+    CHECK_NEAR(worst, 0, 1e-6);
+    finish(&f);
+}
+
 static void test_clockwise(void) {
     fixture f = build("IndexedFaceSet { ccw FALSE coordIndex [ 0 1 2 ] coord Coordinate { point "
                       "[ 0 0 0, 1 0 0, 0 1 0 ] } }");
@@ -575,6 +592,7 @@ static void test_hostile(void) {
 
 int main(void) {
     test_faces_and_crease();
+    test_cut_sides();
     test_clockwise();
     test_concave();
     test_spiral();
