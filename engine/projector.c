@@ -29,9 +29,11 @@ static void cross(const double a[3], const double b[3], double result[3]) {
     memcpy(result, product, sizeof product);
 }
 
-static void to_direction(const plr_matrix *matrix, const double v[3], double result[3]) {
+static void turn(const plr_matrix *matrix, double v[3]) {
+    double turned[3];
     for (int row = 0; row < 3; row++)
-        result[row] = matrix->m[row] * v[0] + matrix->m[4 + row] * v[1] + matrix->m[8 + row] * v[2];
+        turned[row] = matrix->m[row] * v[0] + matrix->m[4 + row] * v[1] + matrix->m[8 + row] * v[2];
+    memcpy(v, turned, sizeof turned);
 }
 
 /* From world space to that of an eye at `location` that looks along `direction`; `up` is made
@@ -43,8 +45,8 @@ static plr_matrix look(const double location[3], const double direction[3], cons
     memcpy(above, up, sizeof above);
     normalize(above);
     if (fabs(dot(above, back)) > 1 - 1e-6) { /* the axis that is farthest from the direction */
-        int least = 0;
-        for (int axis = 1; axis < 3; axis++)
+        int least = 1;
+        for (int axis = 0; axis < 3; axis += 2)
             if (fabs(back[axis]) < fabs(back[least]))
                 least = axis;
         memset(above, 0, sizeof above);
@@ -53,14 +55,14 @@ static plr_matrix look(const double location[3], const double direction[3], cons
     cross(above, back, side);
     normalize(side);
     cross(back, side, above);
-    plr_matrix turn = plr_matrix_identity();
+    plr_matrix axes = plr_matrix_identity();
     for (int column = 0; column < 3; column++) {
-        turn.m[column * 4] = side[column];
-        turn.m[column * 4 + 1] = above[column];
-        turn.m[column * 4 + 2] = back[column];
+        axes.m[column * 4] = side[column];
+        axes.m[column * 4 + 1] = above[column];
+        axes.m[column * 4 + 2] = back[column];
     }
     plr_matrix move = plr_matrix_translation(-location[0], -location[1], -location[2]);
-    return plr_matrix_multiply(&turn, &move);
+    return plr_matrix_multiply(&axes, &move);
 }
 
 static plr_matrix light_place(const plr_view *view, const plr_node *light) {
@@ -81,8 +83,8 @@ static plr_matrix place_light(const plr_view *view, const plr_node *light, const
         up[1] = 1;
     plr_matrix_point(&to_world, at, at);
     if (!plr_node_is(light, "PointLight")) {
-        to_direction(&to_world, direction, direction);
-        to_direction(&to_world, up, up);
+        turn(&to_world, direction);
+        turn(&to_world, up);
     }
     return look(at, direction, up);
 }
@@ -93,8 +95,8 @@ static plr_matrix place_viewpoint(const plr_view *view, const plr_node *node) {
     numbers_of(node, "position", p, 3);
     numbers_of(node, "orientation", o, 4);
     plr_matrix move = plr_matrix_translation(p[0], p[1], p[2]);
-    plr_matrix turn = plr_matrix_rotation(o[0], o[1], o[2], o[3]);
-    to_world = plr_matrix_multiply(&move, &turn);
+    plr_matrix rotation = plr_matrix_rotation(o[0], o[1], o[2], o[3]);
+    to_world = plr_matrix_multiply(&move, &rotation);
     for (size_t i = 0; i < view->flat.viewpoints.count; i++)
         if (view->flat.viewpoints.items[i].node == node)
             to_world = view->flat.viewpoints.items[i].to_world;
@@ -180,7 +182,7 @@ static plr_matrix directional(const plr_view *view, const plr_node *light, plr_m
     }
     if (!(near > 0))
         near = far > 0 ? fmin(e.least[2], far - 1e-3 * far) : e.least[2];
-    if (!(far > near))
+    if (!(far > 0) || !(far > near))
         far = fmax(e.most[2], near + 1e-3 * fabs(near) + 1e-6);
     return plr_matrix_orthographic(box, near, far);
 }

@@ -137,10 +137,12 @@ static const char *source_of(plr_shape *shape, const plr_channel *channel, const
     return *mode->needs ? mode->needs : "UNIT";
 }
 
-static size_t attach(plr_shape *shape, plr_node *node, size_t attached) {
+/* To a channel, where it acts for each vertex, or to a texture, for each fragment. */
+static void attach(plr_shape *shape, plr_node *node, size_t attached, bool fragments) {
     const char *type = plr_node_type(node);
-    return plr_shape_effect(shape, plr_arena_format(&shape->view->arena, "textures/%s", type), type,
-                            node, attached, NULL, 0);
+    plr_define stage = plr_shape_define(shape, fragments ? "FRAGMENTS" : "VERTICES", 1);
+    plr_shape_effect(shape, plr_arena_format(&shape->view->arena, "textures/%s", type), type, node,
+                     attached, &stage, 1);
 }
 
 static bool is_projective(const plr_channel *channel) {
@@ -159,9 +161,9 @@ static void compose_channel(plr_shape *shape, int index, plr_channel *channel) {
     size_t effect = plr_shape_effect(shape, "textures/TextureCoordinate", "TextureCoordinate", NULL,
                                      0, list.items, list.count);
     if (generator)
-        attach(shape, channel->node, effect);
+        attach(shape, channel->node, effect, false);
     if (channel->transform)
-        attach(shape, channel->transform, effect);
+        attach(shape, channel->transform, effect, false);
     channel->projective = is_projective(channel);
 }
 
@@ -239,7 +241,7 @@ plr_coordinates plr_shape_named_coordinates(plr_shape *shape, const char *mappin
 }
 
 void plr_shape_reflect(plr_shape *shape, int channel, size_t texture) {
-    attach(shape, shape->channels[channel].node, texture);
+    attach(shape, shape->channels[channel].node, texture, true);
     if (shape->channels[channel].transform)
-        attach(shape, shape->channels[channel].transform, texture);
+        attach(shape, shape->channels[channel].transform, texture, true);
 }

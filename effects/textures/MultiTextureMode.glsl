@@ -5,73 +5,73 @@
  * colour multiply alpha; results below 0 are 0, alpha above 1 is 1. CHANNELS_RGB, CHANNELS_ALPHA: these alone ("MODULATE / REPLACE"
  * is two instances); LAST: the function is due. */
 
-#if SOURCE_SPECULAR
+#ifdef SOURCE_SPECULAR
 uniform vec3 specularColor = vec3(0.0);
 #endif
 
 void PLUG_texture_mix(inout vec4 result, const in vec4 arg1, const in vec4 previous, const in vec4 primary,
                       const in vec4 factor) {
-#if SOURCE_DIFFUSE
+#ifdef SOURCE_DIFFUSE
     vec4 arg2 = primary;
-#elif SOURCE_SPECULAR
+#elif defined(SOURCE_SPECULAR)
     vec4 arg2 = vec4(specularColor, primary.a);
-#elif SOURCE_FACTOR
+#elif defined(SOURCE_FACTOR)
     vec4 arg2 = factor;
 #else
     vec4 arg2 = previous;
 #endif
 
-#if MODE_REPLACE || MODE_SELECTARG1
+#if defined(MODE_REPLACE) || defined(MODE_SELECTARG1)
     vec4 mixed = arg1;
-#elif MODE_SELECTARG2
+#elif defined(MODE_SELECTARG2)
     vec4 mixed = arg2;
-#elif MODE_MODULATE2X
+#elif defined(MODE_MODULATE2X)
     vec4 mixed = 2.0 * arg1 * arg2;
-#elif MODE_MODULATE4X
+#elif defined(MODE_MODULATE4X)
     vec4 mixed = 4.0 * arg1 * arg2;
-#elif MODE_ADD
+#elif defined(MODE_ADD)
     vec4 mixed = arg1 + arg2;
-#elif MODE_ADDSIGNED
+#elif defined(MODE_ADDSIGNED)
     vec4 mixed = max(arg1 + arg2 - 0.5, 0.0);
-#elif MODE_ADDSIGNED2X
+#elif defined(MODE_ADDSIGNED2X)
     vec4 mixed = max(2.0 * (arg1 + arg2 - 0.5), 0.0);
-#elif MODE_SUBTRACT
+#elif defined(MODE_SUBTRACT)
     vec4 mixed = max(arg1 - arg2, 0.0);
-#elif MODE_ADDSMOOTH
+#elif defined(MODE_ADDSMOOTH)
     vec4 mixed = arg1 + (1.0 - arg1) * arg2;
-#elif MODE_BLENDDIFFUSEALPHA
+#elif defined(MODE_BLENDDIFFUSEALPHA)
     vec4 mixed = mix(arg2, arg1, primary.a);
-#elif MODE_BLENDTEXTUREALPHA
+#elif defined(MODE_BLENDTEXTUREALPHA)
     vec4 mixed = mix(arg2, arg1, arg1.a);
-#elif MODE_BLENDFACTORALPHA
+#elif defined(MODE_BLENDFACTORALPHA)
     vec4 mixed = mix(arg2, arg1, factor.a);
-#elif MODE_BLENDCURRENTALPHA
+#elif defined(MODE_BLENDCURRENTALPHA)
     vec4 mixed = mix(arg2, arg1, previous.a);
-#elif MODE_MODULATEALPHA_ADDCOLOR
+#elif defined(MODE_MODULATEALPHA_ADDCOLOR)
     vec4 mixed = vec4(arg1.rgb + arg1.a * arg2.rgb, arg1.a * arg2.a);
-#elif MODE_MODULATEINVALPHA_ADDCOLOR
+#elif defined(MODE_MODULATEINVALPHA_ADDCOLOR)
     vec4 mixed = vec4((1.0 - arg1.a) * arg2.rgb + arg1.rgb, arg1.a * arg2.a);
-#elif MODE_MODULATEINVCOLOR_ADDALPHA
+#elif defined(MODE_MODULATEINVCOLOR_ADDALPHA)
     vec4 mixed = vec4((1.0 - arg1.rgb) * arg2.rgb + arg1.a, arg1.a * arg2.a);
-#elif MODE_DOTPRODUCT3
+#elif defined(MODE_DOTPRODUCT3)
     vec4 mixed = vec4(max(4.0 * dot(arg1.rgb - 0.5, arg2.rgb - 0.5), 0.0));
 #else
     vec4 mixed = arg1 * arg2;
 #endif
-#if MODE_MODULATE2X || MODE_MODULATE4X || MODE_ADD || MODE_ADDSIGNED || MODE_ADDSIGNED2X || MODE_DOTPRODUCT3
+#if defined(MODE_MODULATE2X) || defined(MODE_MODULATE4X) || defined(MODE_ADD) || defined(MODE_ADDSIGNED) || defined(MODE_ADDSIGNED2X) || defined(MODE_DOTPRODUCT3)
     mixed.a = min(mixed.a, 1.0);
 #endif
 
-#if CHANNELS_RGB
+#ifdef CHANNELS_RGB
     result.rgb = mixed.rgb;
-#elif CHANNELS_ALPHA
+#elif defined(CHANNELS_ALPHA)
     result.a = mixed.a;
 #else
     result = mixed;
 #endif
-#if LAST && FUNCTION_COMPLEMENT
+#if LAST && defined(FUNCTION_COMPLEMENT)
     result.rgb = 1.0 - result.rgb;
-#elif LAST && FUNCTION_ALPHAREPLICATE
+#elif LAST && defined(FUNCTION_ALPHAREPLICATE)
     result.rgb = vec3(result.a);
 #endif
 }

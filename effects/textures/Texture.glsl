@@ -80,11 +80,11 @@ vec4 find_texture_color() {
     return texture_color;
 }
 
-#if VALUE
+#ifdef VALUE
 void PLUG_texture_value(inout vec4 value) {
     value = find_texture_color();
 }
-#elif STAGE
+#elif defined(STAGE)
 void PLUG_texture_stage(inout vec4 fragment_color, const in vec4 primary) {
     vec4 previous = fragment_color, texture_color = find_texture_color();
     /* PLUG: texture_mix (fragment_color, texture_color, previous, primary, vec4(color, alpha)) */

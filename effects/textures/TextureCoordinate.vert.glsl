@@ -45,11 +45,11 @@
 #endif
 #endif
 
-#if BOX
+#ifdef BOX
 #define GIVEN plugray_BoxCoord
-#elif PLANE
+#elif defined(PLANE)
 #define GIVEN plugray_PlaneCoord
-#elif CENTER
+#elif defined(CENTER)
 /* r of the box runs towards -z */
 #define GIVEN vec4((2.0 * plugray_BoxCoord.stp - 1.0) * vec3(1.0, 1.0, -1.0), 1.0)
 #elif UNIT == 0
@@ -71,14 +71,14 @@
 #endif
 
 #ifdef NEEDED
-#if NORMAL
+#ifdef NORMAL
 void PLUG_vertex_eye_space(const in vec4 vertex_eye, const in vec3 normal_eye) {
     vec4 tex_coord;
     /* PLUG: texture_coord_generate (tex_coord, vertex_eye, normal_eye) */
     /* PLUG: texture_coord_transform (tex_coord) */
     TEX_COORD = tex_coord;
 }
-#elif EYE
+#elif defined(EYE)
 void PLUG_vertex_place(const in vec4 vertex_eye) {
     vec4 tex_coord;
     /* PLUG: texture_coord_generate (tex_coord, vertex_eye) */
