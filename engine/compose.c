@@ -204,6 +204,7 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
         *again = true;
         return NULL;
     }
+    plr_report_deprecated(recipe, program, c->diags);
     const char *texts[PLR_STAGE_COUNT];
     program_texts(program, texts);
     uint64_t hash = hash_texts(texts);

@@ -6,7 +6,8 @@ static const GLenum switches[] = {GL_BLEND,
                                   GL_SCISSOR_TEST,
                                   GL_TEXTURE_CUBE_MAP_SEAMLESS,
                                   GL_DEPTH_CLAMP,
-                                  GL_POLYGON_OFFSET_FILL};
+                                  GL_POLYGON_OFFSET_FILL,
+                                  GL_PROGRAM_POINT_SIZE};
 static const GLenum blend_names[] = {GL_BLEND_SRC_RGB,      GL_BLEND_DST_RGB,
                                      GL_BLEND_SRC_ALPHA,    GL_BLEND_DST_ALPHA,
                                      GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
@@ -64,6 +65,8 @@ void plr_gl_state_save(const plr_gl *gl, plr_gl_state *state) {
     gl->GetBooleanv(GL_COLOR_WRITEMASK, state->color_mask);
     gl->GetDoublev(GL_DEPTH_CLEAR_VALUE, &state->clear_depth);
     gl->GetFloatv(GL_COLOR_CLEAR_VALUE, state->clear_color);
+    gl->GetFloatv(GL_BLEND_COLOR, state->blend_color);
+    gl->GetFloatv(GL_LINE_WIDTH, &state->line_width);
 }
 
 void plr_gl_state_restore(const plr_gl *gl, const plr_gl_state *state) {
@@ -92,4 +95,7 @@ void plr_gl_state_restore(const plr_gl *gl, const plr_gl_state *state) {
     gl->ClearDepth(state->clear_depth);
     gl->ClearColor(state->clear_color[0], state->clear_color[1], state->clear_color[2],
                    state->clear_color[3]);
+    gl->BlendColor(state->blend_color[0], state->blend_color[1], state->blend_color[2],
+                   state->blend_color[3]);
+    gl->LineWidth(state->line_width);
 }

@@ -6,7 +6,7 @@
 
 enum {
     PLR_SAVED_UNITS = 32, /* texture units of one program at most */
-    PLR_SAVED_SWITCHES = 7
+    PLR_SAVED_SWITCHES = 8
 };
 
 typedef struct plr_gl_state {
@@ -23,7 +23,7 @@ typedef struct plr_gl_state {
     GLint depth_function, cull_face, front_face, unpack_alignment;
     GLboolean depth_mask, color_mask[4];
     GLdouble clear_depth;
-    GLfloat clear_color[4];
+    GLfloat clear_color[4], blend_color[4], line_width;
 } plr_gl_state;
 
 void plr_gl_state_save(const plr_gl *gl, plr_gl_state *state);

@@ -20,6 +20,7 @@ typedef struct plr_shape {
     plr_recipe *recipe;
     plr_diags *diags;
     bool lit;        /* has normals: light may change it */
+    plr_texture_alpha alpha;
     size_t material; /* attaches further built-in effects to the material's; 0: none */
     plr_channel channels[PLR_MESH_TEX_UNITS];
     size_t channel_count;
@@ -37,12 +38,14 @@ plr_define plr_shape_define(plr_shape *shape, const char *name, int value);
 void plr_shape_material(plr_shape *shape);
 void plr_shape_textures(plr_shape *shape);
 void plr_shape_lights(plr_shape *shape);
+/* Patterns of lines and areas, sizes of points, the test of alpha. */
+void plr_shape_properties(plr_shape *shape);
 /* Fog, clip planes, tone mapping and gamma. */
 void plr_shape_surroundings(plr_shape *shape);
 
 /* ---- State beside the program ---- */
 
-/* Whether the shape is drawn over what lies behind it, by its material and its textures. */
-bool plr_shape_blends(const plr_shape *shape);
+/* How the shape shows what lies behind it: by its appearance, its material, its textures. */
+plr_texture_alpha plr_shape_alpha(const plr_shape *shape);
 
 #endif

@@ -56,7 +56,8 @@ static const float *attribute_data(plr_mesh *mesh, const char *name, int *compon
     } standard[] = {{"castle_Vertex", 3, mesh->positions},
                     {"castle_Normal", 3, mesh->normals},
                     {"castle_ColorPerVertex", 4, mesh->colors},
-                    {"castle_FogCoord", 1, mesh->fog_coords}};
+                    {"castle_FogCoord", 1, mesh->fog_coords},
+                    {"plugray_LineDistance", 1, mesh->line_distances}};
     for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
         if (strcmp(name, standard[i].name) == 0) {
             *components = standard[i].components;
@@ -124,12 +125,7 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(frame->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
     gl->DepthMask(!model->blends);
-    if (model->blends) {
-        gl->Enable(GL_BLEND);
-        gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    } else {
-        gl->Disable(GL_BLEND);
-    }
+    plr_surface_state_enter(gl, &model->state, model->blends);
     bool culls = model->mesh.kind == PLR_MESH_TRIANGLES && !model->mesh.two_sided;
     (culls ? gl->Enable : gl->Disable)(GL_CULL_FACE);
     gl->CullFace(GL_BACK);
@@ -141,6 +137,7 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
     gl->BindVertexArray(model->vertex_array);
     gl->DrawElements(kinds[model->mesh.kind], (GLsizei)model->mesh.index_count, GL_UNSIGNED_INT,
                      NULL);
+    plr_surface_state_leave(gl, &model->state);
 }
 
 void plr_model_finish(plr_view *view, plr_model *model) {

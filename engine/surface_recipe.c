@@ -60,7 +60,8 @@ static void compose(plr_shape *shape) {
 
 static void compose_standard(plr_shape *shape) {
     static void (*const ingredients[])(plr_shape *) = {plr_shape_material, plr_shape_textures,
-                                                       plr_shape_lights, plr_shape_surroundings};
+                                                       plr_shape_lights, plr_shape_properties,
+                                                       plr_shape_surroundings};
     *shape->recipe =
         (plr_recipe){.base = *plr_catalog_units(shape->view->kitchen.catalog, "surface/surface")};
     define_surface(shape);
@@ -102,7 +103,9 @@ static void prepare_model(plr_view *view, plr_model *model, const plr_leaf *leaf
     if (!built && view->engine)
         return; /* else the effects on it are checked all the same */
     shape.lit = model->mesh.normals != NULL;
-    model->blends = plr_shape_blends(&shape);
+    shape.alpha = plr_shape_alpha(&shape);
+    model->blends = shape.alpha == PLR_ALPHA_BLENDING;
+    plr_surface_state_read(&shape, &model->state);
     if (!compose_shader(&shape))
         compose_standard(&shape);
 }

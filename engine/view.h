@@ -5,6 +5,7 @@
 #include "engine/bind.h"
 #include "engine/framebuffer.h"
 #include "engine/mesh.h"
+#include "engine/surface_state.h"
 #include "engine/traverse.h"
 
 struct plr_engine {
@@ -56,6 +57,7 @@ typedef struct plr_model {
     plr_pass pass;
     plr_mesh mesh;
     bool blends;
+    plr_surface_state state;
     struct plr_model *caster; /* the same into shadow maps; NULL: casts none, or none is drawn */
     GLuint vertex_array, buffers[40];
     int buffer_count;

@@ -18,6 +18,7 @@ in vec4 castle_MultiTexCoord7;
 in vec4 plugray_BoxCoord;
 in vec4 plugray_PlaneCoord;
 in float castle_FogCoord;
+in float plugray_LineDistance;
 #endif
 
 /* Texture coordinates, generated and transformed: those of the textures of the Appearance in their order. */

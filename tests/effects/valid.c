@@ -92,12 +92,13 @@ static void link_recipe(linked *l, const recipe *r) {
             list[units++] = read_text(l, PLR_GEOMETRY, p->path, p->geometry_text);
         if (!units)
             units = read_files(l, p->path, list);
-        l->effects[count] = (plr_effect){.name = p->path,
-                                         .sources = list,
-                                         .source_count = units,
-                                         .defines = p->defines,
-                                         .define_count = p->define_count,
-                                         .builtin = !p->text && !p->vertex_text && !p->geometry_text};
+        l->effects[count] =
+            (plr_effect){.name = p->path,
+                         .sources = list,
+                         .source_count = units,
+                         .defines = p->defines,
+                         .define_count = p->define_count,
+                         .builtin = !p->text && !p->vertex_text && !p->geometry_text};
     }
     plr_link_desc desc = {.base = l->base,
                           .base_count = read_files(l, r->base, l->base),
@@ -245,6 +246,7 @@ static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
 static const plr_define lit_style[] = {{"lighting", "1"}, {"HAS_material", "1"}};
 static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}};
 static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
+static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
     {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}};
@@ -330,6 +332,16 @@ static const recipe recipes[] = {
      DEFINES(plain),
      .present = "castle_FogCoord discard exp",
      .absent = "volumetric"},
+    {"patterns, sizes and holes",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "surface/LineProperties"},
+      {.path = "surface/PointProperties"},
+      {.path = "surface/FillProperties", DEFINES(hatched)},
+      {.path = "surface/AlphaTest"}},
+     DEFINES(plain),
+     .present = "plugray_LineDistance gl_PointSize hatchColor alphaCutoff",
+     .absent = "ormal castle_vertex_eye"},
     {"every plug of surfaces",
      "surface/surface",
      {{.path = "surface/Material"},
@@ -413,19 +425,18 @@ static void check_example(const char *text) {
         "layout(triangles) in; layout(triangle_strip, max_vertices = 3) out;\n"
         "void main() { geometryVertexSet(0); geometryVertexZero(); geometryVertexAdd(1, 0.5);\n"
         "  EmitVertex(); }\n";
-    const recipe surfaces = {
-        name,
-        "surface/surface",
-        {{.path = "surface/Material"},
-         {.path = "surface/Texture2D"},
-         {.path = "lights/DirectionalLight"},
-         {.path = name,
-          .text = vertex || geometry ? NULL : text,
-          .vertex_text = vertex ? text : NULL,
-          .geometry_text = geometry ? text : NULL},
-         {.path = geometry ? "emitting" : NULL, .geometry_text = emitting}},
-        DEFINES(plain),
-        .present = name + strlen("PLUG_")};
+    const recipe surfaces = {name,
+                             "surface/surface",
+                             {{.path = "surface/Material"},
+                              {.path = "surface/Texture2D"},
+                              {.path = "lights/DirectionalLight"},
+                              {.path = name,
+                               .text = vertex || geometry ? NULL : text,
+                               .vertex_text = vertex ? text : NULL,
+                               .geometry_text = geometry ? text : NULL},
+                              {.path = geometry ? "emitting" : NULL, .geometry_text = emitting}},
+                             DEFINES(plain),
+                             .present = name + strlen("PLUG_")};
     const recipe volumes = {name,
                             "volume/raycaster",
                             {{.path = "volume/Volume", DEFINES(scalar)},
