@@ -50,7 +50,8 @@ static void step_clocks(x3d_events *ev, bool all) {
             clock->behaviour->step(ev, clock);
         }
         x3d_cascade(ev);
-        if (!ev->again)
+        ev->work += (double)ev->clocks.count;
+        if (!ev->again || ev->work > X3D_MOST_WORK)
             return;
     }
 }
@@ -143,7 +144,7 @@ static void live_through(x3d_events *ev, double time) {
     step(ev, 0);
     for (double k = 1; ev->now < time; k++) {
         double until = fmin(k * length, time);
-        for (int i = 0; i < MOST_MOMENTS; i++) {
+        for (int i = 0; i < MOST_MOMENTS && ev->work < X3D_MOST_WORK; i++) {
             double moment = next_moment(ev);
             if (!(moment > ev->now && moment < until))
                 break;
@@ -184,6 +185,7 @@ static void set_time(plr_scene *scene, double time, const plr_viewer *viewer, pl
     }
     x3d_events *ev = scene->events;
     ev->viewer = viewer;
+    ev->work = 0;
     x3d_events_reset(ev);
     if (!(time > 0))
         time = 0;

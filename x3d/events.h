@@ -96,7 +96,9 @@ typedef struct x3d_event_nodes {
 } x3d_event_nodes;
 
 enum {
-    X3D_STACKS = 4 /* of bindable nodes */
+    X3D_STACKS = 4, /* of bindable nodes */
+    /* in one call, so that no scene takes longer than some seconds */
+    X3D_MOST_WORK = 5000000
 };
 
 struct x3d_events {
@@ -126,7 +128,8 @@ struct x3d_events {
     bool has_history;                 /* the past matters */
     bool again;                       /* a clock got an event */
     bool origin_at_load;              /* startTime 0 is no special time */
-    double most_steps;
+    double most_steps;                /* of one call */
+    double work;                      /* events that this call has carried, and looks at clocks */
     void *scratch;
     size_t scratch_room;
 };

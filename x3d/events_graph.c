@@ -215,12 +215,11 @@ void x3d_event_places_update(x3d_events *ev) {
 
 /* ---- All together ---- */
 
-/* How many steps one call may take, so that no scene takes longer than some seconds. */
+/* How many steps one call may take. */
 static double most_steps(const x3d_events *ev) {
     enum {
         MOST_STEPS = 65536,
-        LEAST_STEPS = 64,
-        MOST_WORK = 50000000
+        LEAST_STEPS = 64
     };
     double work = 1 + (double)ev->routes.count + (double)ev->clocks.count +
                   (double)ev->steppers.count + (double)ev->places.count;
@@ -230,7 +229,7 @@ static double most_steps(const x3d_events *ev) {
         if (values && keys && keys->count)
             work += (double)values->count / (double)keys->count;
     }
-    double steps = MOST_WORK / work;
+    double steps = X3D_MOST_WORK / work;
     return steps > MOST_STEPS ? MOST_STEPS : steps < LEAST_STEPS ? LEAST_STEPS : steps;
 }
 

@@ -104,6 +104,7 @@ void x3d_cascade(x3d_events *ev) {
             if (route->stamp == ev->stamp)
                 continue;
             route->stamp = ev->stamp;
+            ev->work++;
             deliver(ev, route);
         }
     }
