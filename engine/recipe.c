@@ -190,6 +190,23 @@ static bool read_placement(plr_kitchen *k, const plr_node *node, plr_placement *
     return false;
 }
 
+/* The libraries that effects may name: their functions are in plugray's library, and come without
+ * being named as well. */
+static void check_libraries(plr_kitchen *k, const plr_node *node) {
+    static const char *const known[] = {"castle-shader:/EyeWorldSpace.glsl"};
+    const plr_field *names = plr_node_field(node, "shaderLibraries");
+    for (size_t i = 0; names && i < names->count; i++) {
+        const plr_string *name = &names->value.strings[i];
+        plr_place place = {name->origin.file, name->origin.line, name->origin.column};
+        bool found = false;
+        for (size_t n = 0; n < sizeof known / sizeof *known; n++)
+            found = found || strcmp(name->text, known[n]) == 0;
+        if (!found)
+            plr_diags_add_as(k->diags, PLR_WARNING, PLR_CODE_MISSING_FILE, place,
+                             "plugray has no shader library '%s'", name->text);
+    }
+}
+
 void plr_recipe_author(plr_kitchen *k, plr_recipe *recipe, plr_node *node, size_t attached,
                        size_t volume) {
     plr_placement placement;
@@ -197,6 +214,7 @@ void plr_recipe_author(plr_kitchen *k, plr_recipe *recipe, plr_node *node, size_
         !is_glsl(k, node) || !read_placement(k, node, &placement))
         return;
     plr_sources sources = {0};
+    check_libraries(k, node);
     collect_parts(k, node, &sources);
     const char *def = plr_node_def(node);
     plr_effect effect = {.name = def ? def : "Effect",

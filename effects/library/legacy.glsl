@@ -1,7 +1,9 @@
 /* What the built-in names of old GLSL stand for, in terms of the host's. The linker writes these
  * names in their place: plugs/words.def says which. */
 
-uniform mat4 plugray_TextureMatrix[8];
+/* A complete shader gets texture coordinates as they are in the geometry. */
+const mat4 plugray_TextureMatrix[8] = mat4[8](mat4(1.0), mat4(1.0), mat4(1.0), mat4(1.0),
+                                              mat4(1.0), mat4(1.0), mat4(1.0), mat4(1.0));
 
 #define plugray_ModelViewProjectionMatrix (castle_ProjectionMatrix * castle_ModelViewMatrix)
 #define plugray_ModelViewMatrixInverse inverse(castle_ModelViewMatrix)
