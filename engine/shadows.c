@@ -18,15 +18,21 @@ static plr_shadow *find_shadow(const plr_view *view, const plr_node *light, cons
     return NULL;
 }
 
-/* A GeneratedShadowMap is drawn with polygon offsets, so that authors' own comparisons are right;
- * the built-in one needs no further offset then. */
+/* Whether the depths in the map are set back while it is drawn, so that authors' own comparisons
+ * are right; the built-in one needs no further offset then. A light's default is read by that
+ * alone, so it needs none unless it asks for one. */
+static bool is_set_back(const plr_node *light, const plr_node *map) {
+    return map && (map != plr_node_child(light, "defaultShadowMap") ||
+                   plr_node_field(map, "scale")->given || plr_node_field(map, "bias")->given);
+}
+
 static plr_shadow *push_shadow(plr_view *view, plr_node *light, const plr_node *map,
                                plr_texture *texture) {
     plr_shadow *shadow = PLR_NEW(&view->arena, plr_shadow);
     *shadow = (plr_shadow){.light = light, .map = map, .world = view->entered};
     shadow->values.texture = texture;
     shadow->values.from_world = plr_matrix_identity();
-    shadow->values.offset = map ? 0 : 1;
+    shadow->values.offset = is_set_back(light, map) ? 0 : 1;
     const plr_field *bias = plr_node_field(light, "shadowBias");
     if (bias && bias->given)
         shadow->values.depth_bias = plr_node_number(light, "shadowBias");
@@ -285,7 +291,7 @@ static void draw_caster(plr_view *view, const plr_surface *surface, const plr_fr
 
 void plr_casters_draw(plr_view *view, const plr_shadow *shadow, const plr_frame *frame) {
     const plr_gl *gl = &view->engine->gl;
-    if (shadow->map) {
+    if (is_set_back(shadow->light, shadow->map)) {
         gl->Enable(GL_POLYGON_OFFSET_FILL);
         gl->PolygonOffset((float)plr_node_number(shadow->map, "scale"),
                           (float)plr_node_number(shadow->map, "bias"));
