@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* More quadrilaterals, which grow as a product of two lists, are refused. */
-#define QUAD_LIMIT ((size_t)1 << 20)
+#define QUAD_LIMIT ((size_t)1 << 19)
 /* Below this sine of the angle between two edges they are taken as one line. */
 #define STRAIGHT 1e-5
 
