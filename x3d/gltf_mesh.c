@@ -27,7 +27,9 @@ static const mode modes[] = {
 
 enum {
     MODES = sizeof modes / sizeof *modes,
-    USUAL_MODE = 4
+    USUAL_MODE = 4,
+    MOST_OWN = 16, /* attributes of a primitive that the standard does not name */
+    MOST_NAME = 100
 };
 
 /* What an accessor holds, as floats. */
@@ -200,6 +202,40 @@ static void add_coordinates(primitive *p) {
         gltf_add_node(p->g, p->geometry, "texCoord", all);
 }
 
+/* An attribute of the author's own, for effects: its name is that of the GLSL attribute. */
+static void add_own(primitive *p, const x3d_json *member) {
+    char name[MOST_NAME + 1];
+    size_t index;
+    memcpy(name, member->key, member->key_length);
+    name[member->key_length] = '\0';
+    const values *v = attribute(p, name, 1, 4, &index);
+    const float *items = v ? put_in_order(p, v->items, v->components) : NULL;
+    if (!items)
+        return;
+    plr_node *node = gltf_node(p->g, "FloatVertexAttribute", member);
+    int32_t *components = PLR_NEW(&p->g->scene->arena, int32_t);
+    *components = (int32_t)v->components;
+    gltf_set_string(p->g, node, "name",
+                    plr_arena_copy(&p->g->scene->arena, name, member->key_length),
+                    member->key_length, member);
+    gltf_set_list(p->g, node, "numComponents", components, 1, member);
+    gltf_set_list(p->g, node, "value", items,
+                  (is_ordered(p) ? p->indices->count : v->count) * v->components, member);
+    gltf_add_node(p->g, p->geometry, "attrib", node);
+}
+
+static void add_all_own(primitive *p) {
+    size_t count = 0;
+    for (size_t i = 0; i < p->attributes->count && count < MOST_OWN; i++) {
+        const x3d_json *member = &p->attributes->value.items[i];
+        if (member->key_length && member->key[0] == '_' && member->key_length <= MOST_NAME &&
+            !memchr(member->key, '\0', member->key_length)) {
+            add_own(p, member);
+            count++;
+        }
+    }
+}
+
 /* ---- Indices ---- */
 
 /* False: they are wrong, nothing can be drawn (reported). */
@@ -299,6 +335,7 @@ static void make_geometry(primitive *p, const values *points, size_t point_index
         gltf_set_bool(g, p->geometry, "normalPerVertex", false);
     add_colors(p);
     add_coordinates(p);
+    add_all_own(p);
     if (m->triangles && p->material->two_sided)
         gltf_set_bool(g, p->geometry, "solid", false);
 }

@@ -433,6 +433,21 @@ def effects():
     suite.equal("", suite.middle(scene, files={"model.gltf": model.text()}), GREEN)
 
 
+@suite.case
+def own_attributes():
+    """an effect reads what the file gives each vertex"""
+    model = Model()
+    shape = quad(model, material=model.unlit())
+    shape["attributes"]["_HEAT"] = model.accessor([0, 0, 1, 1])
+    look(model).node(mesh=model.mesh(shape))
+    scene = x3d('Inline { url "model.gltf" } Effect { parts [ EffectPart { type "VERTEX" url "data:,'
+                "attribute float _HEAT; varying float heat; void PLUG_vertex_eye_space(const in vec4 v, "
+                'const in vec3 n) { heat = _HEAT; }" } EffectPart { type "FRAGMENT" url "data:,varying float '
+                'heat; void PLUG_fragment_modify(inout vec4 color) { color = vec4(heat, 0.0, 0.0, 1.0); }" } ] }')
+    suite.close("", [c[0] for c in suite.probe(scene, [(8, 0), (8, 15)], files={"model.gltf": model.text()})],
+                [15.5 / 16, 0.5 / 16])
+
+
 # ---- files
 
 

@@ -108,6 +108,34 @@ static void test_sparse(void) {
     plr_scene_destroy(&scene);
 }
 
+/* What the standard does not name is for effects; points take it in the order of their index. */
+static void test_own_attributes(void) {
+    bytes b = {0};
+    PUT_FLOATS(&b, 0, 0, 0, 1, 0, 0);
+    PUT_BYTES(&b, 10, 20, 30, 40);
+    PUT_BYTES(&b, 1, 0, 1);
+    plr_scene *scene = check_body(
+        "attributes of one's own", &b,
+        ONE_MESH "'meshes':[{'primitives':[{'mode':0,'indices':2,'attributes':{'POSITION':0,"
+                 "'_HEAT':1,'HEAT':1}},{'mode':0,'attributes':{'POSITION':0,'_FLOW':1}}]}],"
+                 "'bufferViews':[{'buffer':0,'byteLength':31}],'accessors':[{'bufferView':0,"
+                 "'count':2," FLOAT3 "},{'bufferView':0,'byteOffset':24,'componentType':5121,"
+                 "'count':2,'type':'VEC2'},{'bufferView':0,'byteOffset':28,'componentType':5121,"
+                 "'count':3,'type':'SCALAR'}]",
+        "", NULL);
+    const plr_node *group = first_of(scene, "Group");
+    const plr_node *heat = first_below(group, "FloatVertexAttribute");
+    CHECK_STR(plr_node_string(heat, "name"), "_HEAT");
+    CHECK_INT(plr_node_int(heat, "numComponents"), 2);
+    CHECK_NUMBERS(heat, "value", 30, 40, 10, 20, 30, 40);
+    const plr_field *shapes = plr_node_field(group, "children");
+    const plr_node *flow = first_below(shapes->value.nodes[1], "FloatVertexAttribute");
+    CHECK_STR(plr_node_string(flow, "name"), "_FLOW");
+    CHECK_NUMBERS(flow, "value", 10, 20, 30, 40);
+    CHECK_INT(plr_node_field(first_below(group, "PointSet"), "attrib")->count, 1);
+    plr_scene_destroy(&scene);
+}
+
 /* Five vertices in every mode, without and with the indices 4 3 2 1 0. */
 static plr_scene *in_mode(int mode, bool indexed) {
     bytes b = {0};
@@ -193,6 +221,7 @@ int main(void) {
     test_interleaved();
     test_components();
     test_sparse();
+    test_own_attributes();
     test_modes();
     test_shared();
     return tap_done();
