@@ -130,8 +130,8 @@ static void test_holes(void) {
             flat[i][k] = (float)points[i][k];
     static const float normal[3] = {0, 0, 1};
     plr_diags *diags = plr_diags_create(NULL);
-    plr_scene *scene =
-        plr_scene_parse("#X3D V4.0 utf8\nPROFILE Full\nText { }\n", 40, "t.x3dv", NULL, diags);
+    static const char source[] = "#X3D V4.0 utf8\nPROFILE Full\nText { }\n";
+    plr_scene *scene = plr_scene_parse(source, sizeof source - 1, "t.x3dv", NULL, diags);
     plr_arena arena;
     jmp_buf out_of_memory;
     plr_arena_init(&arena, NULL, &out_of_memory);
