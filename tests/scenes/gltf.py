@@ -320,6 +320,29 @@ def wrapping():
     suite.equal("", probe_squares(model, [(1, 8), (8, 8)]), [[RED, RED], [RED, GREEN], [RED, GREEN]])
 
 
+ALPHAS = (
+    ({}, [WHITE, WHITE]),
+    ({"alphaMode": "MASK"}, [(0, 0, 0, 0), WHITE]),
+    ({"alphaMode": "MASK", "alphaCutoff": 0.1}, [WHITE, WHITE]),
+    ({"alphaMode": "BLEND"}, [(0.2,) * 4, (0.6,) * 4]),
+)
+
+
+@suite.case
+def alpha_modes():
+    """OPAQUE, MASK and BLEND"""
+    model = Model()
+    look(model, len(ALPHAS))
+    image = {"bufferView": model.view(png([[(1, 1, 1, 0.2), (1, 1, 1, 0.6)]])), "mimeType": "image/png"}
+    for i, (mode, _) in enumerate(ALPHAS):
+        material = textured(model, image)
+        model.json["materials"][material].update(mode)
+        place(model, i, mesh=model.mesh(quad(model, material=material)))
+    for (mode, expected), colors in zip(ALPHAS, probe_squares(model, [(4, 8), (11, 8)])):
+        suite.close(f"{mode}", [c for color in colors for c in color],
+                    [c for color in expected for c in color], 0.003)
+
+
 @suite.case
 def two_sets():
     """each texture of a material finds its own set of coordinates"""
