@@ -96,6 +96,13 @@ static int dimensions_of(const plr_shape *shape, const plr_node *node) {
     return color ? plr_texture_dimensions(texture) : -1;
 }
 
+/* What its coordinates are by default: ShaderTexture says. */
+static int coordinate_dimensions(const plr_shape *shape, const plr_node *node) {
+    bool in_space = node && plr_node_is(node, "ShaderTexture") &&
+                    strcmp(plr_node_string(node, "defaultTexCoord"), "BOUNDS3D") == 0;
+    return in_space ? 3 : dimensions_of(shape, node);
+}
+
 /* Adds the instance of a texture; `role` is a macro of Texture.glsl or NULL. 0 if there are no
  * coordinates left. */
 static size_t add_texture(plr_shape *shape, plr_node *node, int dimensions, plr_coordinates where,
@@ -146,7 +153,7 @@ size_t plr_shape_units(const plr_shape *shape, int dimensions[PLR_MESH_TEX_UNITS
     plr_node *nodes[PLR_MESH_TEX_UNITS];
     size_t count = main_textures(shape, nodes);
     for (size_t i = 0; i < count; i++)
-        dimensions[i] = dimensions_of(shape, nodes[i]);
+        dimensions[i] = coordinate_dimensions(shape, nodes[i]);
     return count;
 }
 
@@ -230,7 +237,8 @@ static void add_mode(plr_shape *shape, const char *mode, const char *source, con
 static void add_stage(plr_shape *shape, plr_node *multi, size_t index, plr_node *node,
                       size_t attached) {
     int dimensions = dimensions_of(shape, node);
-    plr_coordinates where = plr_shape_unit_coordinates(shape, (unsigned)index, dimensions);
+    plr_coordinates where =
+        plr_shape_unit_coordinates(shape, (unsigned)index, coordinate_dimensions(shape, node));
     words mode = words_at(shape, multi, "mode", index, mode_names);
     words source = words_at(shape, multi, "source", index, source_names);
     words function = words_at(shape, multi, "function", index, function_names);
@@ -282,10 +290,11 @@ static void add_main(plr_shape *shape) {
     if (field) {
         const char *name = plr_arena_format(&shape->view->arena, "%sMapping", field);
         const plr_field *mapping = plr_node_field(material, name);
-        where = plr_shape_named_coordinates(shape, plr_node_string(material, name), dimensions,
+        where = plr_shape_named_coordinates(shape, plr_node_string(material, name),
+                                            coordinate_dimensions(shape, node),
                                             mapping ? mapping->place : plr_node_place(node));
     } else {
-        where = plr_shape_unit_coordinates(shape, 0, dimensions);
+        where = plr_shape_unit_coordinates(shape, 0, coordinate_dimensions(shape, node));
     }
     add_texture(shape, node, dimensions, where, NULL, false, true, 0);
 }

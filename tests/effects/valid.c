@@ -15,6 +15,7 @@ typedef struct part {
     const plr_define *defines;
     size_t define_count;
     const char *geometry_text;
+    size_t attached; /* to the part before of this number, from 1 */
 } part;
 
 typedef struct recipe {
@@ -98,6 +99,8 @@ static void link_recipe(linked *l, const recipe *r) {
                          .source_count = units,
                          .defines = p->defines,
                          .define_count = p->define_count,
+                         .attached = p->attached,
+                         .only_attached = p->attached != 0,
                          .builtin = !p->text && !p->vertex_text && !p->geometry_text};
     }
     plr_link_desc desc = {.base = l->base,
@@ -253,6 +256,33 @@ static const plr_define given_fog[] = {
 static const plr_define with_ground[] = {{"HAS_GROUND", "1"}};
 static const plr_define no_ground[] = {{"HAS_GROUND", "0"}};
 
+#define IMAGE(...)                                                                                 \
+    { {"CHANNEL", "0"}, {"SHIFTED", "1"}, __VA_ARGS__ }
+static const plr_define image_2d[] =
+    IMAGE({"DIMENSIONS", "2"}, {"PROJECTIVE", "0"}, {"REFLECTED", "0"}, {"DATA", "0"});
+static const plr_define image_projected[] =
+    IMAGE({"DIMENSIONS", "2"}, {"PROJECTIVE", "1"}, {"REFLECTED", "0"}, {"DATA", "0"});
+static const plr_define image_cube[] =
+    IMAGE({"DIMENSIONS", "6"}, {"PROJECTIVE", "0"}, {"REFLECTED", "1"}, {"DATA", "0"});
+static const plr_define image_value[] = IMAGE({"DIMENSIONS", "3"}, {"PROJECTIVE", "1"},
+                                              {"REFLECTED", "0"}, {"DATA", "1"}, {"VALUE", "1"});
+static const plr_define image_stage[] = IMAGE({"DIMENSIONS", "2"}, {"PROJECTIVE", "0"},
+                                              {"REFLECTED", "0"}, {"DATA", "0"}, {"STAGE", "1"});
+static const plr_define image_made[] =
+    IMAGE({"DIMENSIONS", "0"}, {"PROJECTIVE", "0"}, {"REFLECTED", "0"}, {"DATA", "0"});
+static const plr_define own_channel[] = {{"CHANNEL", "0"}, {"UNIT", "0"}};
+static const plr_define eye_channel[] = {{"CHANNEL", "0"}, {"UNIT", "0"}, {"EYE", "1"}};
+static const plr_define normal_channel[] = {{"CHANNEL", "0"}, {"UNIT", "0"}, {"NORMAL", "1"}};
+static const plr_define vertices[] = {{"VERTICES", "1"}};
+static const plr_define reflecting[] = {{"VERTICES", "1"},
+                                        {"mode_WORLDSPACEREFLECTIONVECTOR", "1"}};
+static const plr_define reflected[] = {{"FRAGMENTS", "1"},
+                                       {"mode_WORLDSPACEREFLECTIONVECTOR", "1"}};
+static const plr_define fragments[] = {{"FRAGMENTS", "1"}};
+static const plr_define noisy[] = {{"VERTICES", "1"}, {"mode_NOISE_EYE", "1"}};
+static const plr_define subtracting[] = {
+    {"MODE_SUBTRACT", "1"}, {"SOURCE_SPECULAR", "1"}, {"FUNCTION_COMPLEMENT", "1"}, {"LAST", "1"}};
+
 static const recipe recipes[] = {
     {"unlit",
      "surface/surface",
@@ -269,11 +299,74 @@ static const recipe recipes[] = {
     {"unlit, textured",
      "surface/surface",
      {{.path = "surface/UnlitMaterial"},
-      {.path = "surface/Texture2D"},
-      {.path = "surface/TextureTransform"}},
+      {.path = "textures/TextureCoordinate", DEFINES(own_channel)},
+      {.path = "textures/TextureTransform", DEFINES(vertices), .attached = 2},
+      {.path = "textures/Texture", DEFINES(image_2d)}},
      DEFINES(plain),
      .present = "castle_MultiTexCoord0 sampler2D",
-     .absent = "ormal"},
+     .absent = "ormal textureProj"},
+    {"unlit, textures in space and projected",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "textures/TextureCoordinate", DEFINES(eye_channel)},
+      {.path = "textures/ProjectedTextureCoordinate", .attached = 2},
+      {.path = "textures/TextureTransform3D", DEFINES(vertices), .attached = 2},
+      {.path = "textures/TextureTransformMatrix3D", DEFINES(vertices), .attached = 2},
+      {.path = "textures/Texture", DEFINES(image_projected)}},
+     DEFINES(plain),
+     .present = "eyeToProjector textureProj",
+     .absent = "ormal castle_MultiTexCoord"},
+    {"unlit, a cube reflected",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "textures/TextureCoordinate", DEFINES(normal_channel)},
+      {.path = "textures/TextureCoordinateGenerator", DEFINES(reflecting), .attached = 2},
+      {.path = "textures/Texture", DEFINES(image_cube)},
+      {.path = "textures/TextureCoordinateGenerator", DEFINES(reflected), .attached = 4},
+      {.path = "textures/TextureTransform3D", DEFINES(fragments), .attached = 4},
+      {.path = "textures/TextureTransformMatrix3D", DEFINES(fragments), .attached = 4},
+      {.path = "textures/TextureTransform", DEFINES(fragments), .attached = 4}},
+     DEFINES(plain),
+     .present = "samplerCube castle_normal_eye reflect",
+     .absent = "castle_MultiTexCoord refract"},
+    {"unlit, textures one over the other",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "textures/TextureCoordinate", DEFINES(eye_channel)},
+      {.path = "textures/TextureCoordinateGenerator", DEFINES(noisy), .attached = 2},
+      {.path = "textures/MultiTexture"},
+      {.path = "textures/Texture", DEFINES(image_stage), .attached = 4},
+      {.path = "textures/MultiTextureMode", DEFINES(subtracting), .attached = 5}},
+     DEFINES(plain),
+     .present = "specularColor solid_noise_vector",
+     .absent = "castle_MultiTexCoord alpha; factor;"},
+    {"pink",
+     "surface/surface",
+     {{.path = "surface/UnlitMaterial"},
+      {.path = "textures/TextureCoordinate", DEFINES(own_channel)},
+      {.path = "textures/Texture", DEFINES(image_made)}},
+     DEFINES(plain),
+     .absent = "sampler TexCoord"},
+    {"textures of a material",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "textures/ambientTexture"},
+      {.path = "textures/Texture", DEFINES(image_value), .attached = 2},
+      {.path = "textures/specularTexture"},
+      {.path = "textures/shininessTexture"},
+      {.path = "textures/emissiveTexture"},
+      {.path = "textures/occlusionTexture"},
+      {.path = "lights/PointLight"}},
+     DEFINES(plain),
+     .present = "sampler3D occlusionStrength"},
+    {"textures of a physical material",
+     "surface/surface",
+     {{.path = "surface/PhysicalMaterial"},
+      {.path = "textures/metallicRoughnessTexture"},
+      {.path = "textures/Texture", DEFINES(image_value), .attached = 2},
+      {.path = "lights/PointLight"}},
+     DEFINES(plain),
+     .present = "sampler3D"},
     {"unlit, every plug",
      "surface/surface",
      {{.path = "surface/UnlitMaterial"},
@@ -307,7 +400,7 @@ static const recipe recipes[] = {
     {"physical material and light, two-sided",
      "surface/surface",
      {{.path = "surface/PhysicalMaterial"},
-      {.path = "surface/Texture2D"},
+      {.path = "textures/Texture", DEFINES(image_2d)},
       {.path = "surface/back/PhysicalMaterial"},
       {.path = "lights/DirectionalLight"},
       {.path = "output/ToneMapping", DEFINES(uncharted)},
@@ -345,8 +438,8 @@ static const recipe recipes[] = {
     {"every plug of surfaces",
      "surface/surface",
      {{.path = "surface/Material"},
-      {.path = "surface/Texture2D"},
-      {.path = "surface/TextureTransform"},
+      {.path = "textures/TextureCoordinate", DEFINES(own_channel)},
+      {.path = "textures/Texture", DEFINES(image_2d)},
       {.path = "lights/PointLight"},
       {.path = "lights/PointLight"},
       {"author", .text = every_fragment_plug, .vertex_text = every_vertex_plug},
@@ -428,7 +521,7 @@ static void check_example(const char *text) {
     const recipe surfaces = {name,
                              "surface/surface",
                              {{.path = "surface/Material"},
-                              {.path = "surface/Texture2D"},
+                              {.path = "textures/Texture", DEFINES(image_2d)},
                               {.path = "lights/DirectionalLight"},
                               {.path = name,
                                .text = vertex || geometry ? NULL : text,
