@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine/projector.h"
+#include "engine/light_values.h"
 
 /* ---- GLSL types and the field types that fit them ---- */
 
@@ -356,7 +357,8 @@ bool plr_bind_check(plr_kitchen *k, plr_recipe *recipe, const plr_program *progr
     bool again = false;
     for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
-        if (symbol->kind != PLR_UNIFORM)
+        const plr_binding *light;
+        if (symbol->kind != PLR_UNIFORM || plr_light_value_find(recipe, symbol->name, &light))
             continue;
         if (symbol->effect == PLR_NO_EFFECT) {
             if (recipe->base_node && !find_known(symbol->name, NULL))
@@ -385,6 +387,7 @@ struct plr_slot {
     const struct glsl_type *type;
     const plr_binding *binding;
     const struct known *known;
+    const plr_light_value *light_value; /* of `binding` */
     const plr_field *field;
     const plr_node *node; /* whose field it is */
     size_t volume;        /* for `known` and the voxels */
@@ -392,6 +395,7 @@ struct plr_slot {
     enum {
         SLOT_VALUE,
         SLOT_FIELD,
+        SLOT_LIGHT,
         SLOT_COUNT,
         SLOT_TEXTURE,
         SLOT_VOXELS,
@@ -434,13 +438,18 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     }
     if (slot->type->shape == SHAPE_SAMPLER && builtin && strcmp(symbol->name, "self") == 0) {
         slot->source = SLOT_TEXTURE;
-        slot->texture = plr_textures_get(k->textures, binding->node);
+        slot->texture =
+            binding->texture ? binding->texture : plr_textures_get(k->textures, binding->node);
         return slot->texture != NULL;
     }
     if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
         strcmp(symbol->name, "transferFunction") == 0 &&
         !plr_textures_in(k->textures, binding->node, symbol->name)) {
         slot->source = SLOT_DEFAULT_RAMP;
+        return true;
+    }
+    if (slot->light_value && slot->type->shape == SHAPE_FLOAT) {
+        slot->source = SLOT_LIGHT;
         return true;
     }
     if (!binding || builtin)
@@ -500,8 +509,10 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
             slots->defaults = built->defaults;
         if (symbol->kind != PLR_UNIFORM || !slot.type)
             continue;
-        slot.location = gl->GetUniformLocation(built->name, symbol->program);
         bool builtin = !own && recipe->effects.items[symbol->effect].builtin;
+        if (!builtin && (slot.light_value = plr_light_value_find(recipe, symbol->name, &binding)))
+            slot.binding = binding;
+        slot.location = gl->GetUniformLocation(built->name, symbol->program);
         if (slot.location < 0)
             continue;
         /* every sampler of an array is a slot of its own */
@@ -626,6 +637,10 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
             gl->Uniform1i(slot->location, (GLint)numbers[0]);
         else
             set_floats(gl, slot, 1, numbers, false);
+        return;
+    case SLOT_LIGHT:
+        plr_light_value_get(slot->light_value, slot->binding, &values->frame->view, numbers);
+        set_floats(gl, slot, 1, numbers, false);
         return;
     case SLOT_FIELD:
         set_field(gl, slot);

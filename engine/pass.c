@@ -9,7 +9,8 @@ static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light
                        (plr_binding){.node = light->node,
                                      .to_world = light->to_world,
                                      .in_eye_space = light->in_eye_space,
-                                     .volume = volume},
+                                     .volume = volume,
+                                     .is_light = true},
                        attached, NULL, 0);
 }
 

@@ -249,6 +249,8 @@ static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
 static const plr_define lit_style[] = {{"lighting", "1"}, {"HAS_material", "1"}};
 static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}};
 static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
+static const plr_define irradiance[] = {{"HAS_diffuseTexture", "1"},
+                                        {"diffuseTexture_DIMENSIONS", "6"}};
 static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
@@ -391,6 +393,7 @@ static const recipe recipes[] = {
      "surface/surface",
      {{.path = "surface/Material"},
       {.path = "lights/DirectionalLight"},
+      {.path = "lights/EnvironmentLight", DEFINES(irradiance)},
       {.path = "lights/PointLight"},
       {.path = "lights/SpotLight"},
       {.path = "lights/SpotLight"}},
