@@ -363,6 +363,26 @@ static void test_glb(void) {
     }
 }
 
+/* Wherever memory runs out, there is a word about it, and nothing is lost (told by the sanitizer).
+ */
+static void test_memory(void) {
+    bytes b = glb(2, 36);
+    int scenes = 0, faults = 0, silent = 0;
+    for (size_t most = 1000; most < 1000000; most += most / 7) {
+        plr_read_desc desc = {.max_memory = most};
+        plr_diags *diags = plr_diags_create(NULL);
+        plr_scene *scene =
+            plr_scene_parse((const char *)b.data, b.length, "scene.glb", &desc, diags);
+        size_t errors = plr_diags_count_of(diags, PLR_ERROR);
+        scenes += scene && !errors;
+        faults += errors > 0;
+        silent += !scene && !errors;
+        plr_scene_destroy(&scene);
+        plr_diags_destroy(&diags);
+    }
+    CHECK(scenes > 5 && faults > 5 && silent == 0);
+}
+
 int main(void) {
     RUN(accessor_cases);
     RUN(sparse_cases);
@@ -375,5 +395,6 @@ int main(void) {
     test_json();
     test_depth();
     test_glb();
+    test_memory();
     return tap_done();
 }
