@@ -365,6 +365,8 @@ static void print_ways(composer *c) {
         if (!symbol || !symbol->weak || !symbol->reached)
             continue;
         plr_print_own(c->printer, ways[w].head);
+        if (l->passes_size && w != WAY_ZERO)
+            plr_print_own(c->printer, "    gl_PointSize = gl_in[index].gl_PointSize;\n");
         for (size_t i = 0; i < l->passed.count; i++)
             print_way(c, &l->passed.items[i], (way)w);
         plr_print_own(c->printer, "}\n");

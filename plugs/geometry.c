@@ -228,10 +228,26 @@ static void rename_passed(plr_linking *l) {
     }
 }
 
+/* Whether the vertex stage sets the size of points. */
+static bool sizes_points(const plr_linking *l) {
+    for (uint32_t e = 0; e < l->effect_count + 3; e++) {
+        const plr_scope *scope = plr_scope_of(l, PLR_VERTEX, e);
+        for (uint32_t u = 0; u < scope->unit_count; u++) {
+            const plr_unit *unit = &scope->units[u];
+            for (size_t i = 0; i < unit->lexed->idents.count; i++)
+                if (unit->lexed->idents.items[i].word == PLR_WORD_gl_PointSize &&
+                    unit->actions[i] != PLR_ACTION_UNKNOWN)
+                    return true;
+        }
+    }
+    return false;
+}
+
 void plr_pass_varyings(plr_linking *l) {
     const unsigned all = 1u << PLR_VERTEX | 1u << PLR_GEOMETRY | 1u << PLR_FRAGMENT;
     if ((l->stages & all) != all)
         return;
+    l->passes_size = sizes_points(l);
     joints given = collect(l, PLR_VERTEX, PLR_Q_OUT | PLR_Q_VARYING);
     joints taken = collect(l, PLR_FRAGMENT, PLR_Q_IN | PLR_Q_VARYING);
     joints inputs = collect(l, PLR_GEOMETRY, PLR_Q_IN | PLR_Q_VARYING);

@@ -250,6 +250,7 @@ typedef struct plr_linking {
     bool base_fault;
     uint32_t main_effect; /* whose main() the geometry stage has; PLR_NONE: none's, so far */
     PLR_LIST(plr_passed) passed;
+    bool passes_size; /* of points */
     uint32_t compared; /* names with unknown ones */
 
     /* Versions. */

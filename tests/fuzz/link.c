@@ -101,6 +101,17 @@ static void look_around(const plr_program *program) {
     }
 }
 
+/* The calls are those that their plugs count. */
+static void look_at_calls(const plr_program *program) {
+    plr_call_info calls[64];
+    size_t count = plr_program_calls(program, calls, 64);
+    for (size_t i = 0; i < count && i < 64; i++) {
+        const plr_plug_info *plug = plr_program_plug(program, calls[i].plug);
+        if (!plug || !plug->call_count)
+            abort();
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -117,8 +128,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                           .keep_all = j->keep_all};
     plr_diags *diags = plr_diags_create(NULL);
     plr_program *program = plr_link(&desc, diags);
-    if (program)
+    if (program) {
         look_around(program);
+        look_at_calls(program);
+    }
     plr_program_destroy(&program);
     plr_diags_destroy(&diags);
     for (size_t i = 0; i < MOST; i++) {

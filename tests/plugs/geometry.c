@@ -60,6 +60,20 @@ static void test_passing(void) {
     CHECK_STR(text, "'mine' and normal");
 }
 
+static void test_size_of_points(void) {
+    for (int sized = 0; sized < 2; sized++) {
+        start();
+        effect(NULL);
+        vertex_unit(sized ? "void PLUG_move(inout vec4 p) { gl_PointSize = 4.0; }\n"
+                          : "void unused() { gl_PointSize = 4.0; }\n");
+        geometry_unit("layout(points) in; layout(points, max_vertices = 1) out;\n"
+                      "void main() { geometryVertexSet(0); EmitVertex(); }\n");
+        const linked *r = link_valid();
+        CHECK_INT(occurrences(r->geometry, "gl_PointSize = gl_in[index].gl_PointSize;"), sized);
+        CHECK_SILENT();
+    }
+}
+
 static void test_blending(void) {
     start();
     effect(NULL);
@@ -220,6 +234,7 @@ static void test_complete_shader(void) {
 int main(void) {
     read_base();
     test_passing();
+    test_size_of_points();
     test_blending();
     test_by_hand();
     test_own_varyings();
