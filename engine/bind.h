@@ -65,6 +65,8 @@ typedef struct plr_slots {
  * (or kinds of textures) differ is reported and disabled (then true is returned: link again);
  * partners that lack are warned of. No GL. */
 bool plr_bind_check(plr_kitchen *kitchen, plr_recipe *recipe, const plr_program *program);
+/* The same for the number of samplers: the effect with the first one too many is left out. */
+bool plr_bind_check_samplers(plr_kitchen *kitchen, plr_recipe *recipe, const plr_program *program);
 
 /* Finds the locations. Needs GL. */
 void plr_bind_find(plr_kitchen *kitchen, const plr_gl *gl, const plr_recipe *recipe,

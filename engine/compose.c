@@ -199,7 +199,8 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
         if (plr_program_is_faulty(program, i))
             recipe->effects.items[i].disabled = true;
     bool bound = recipe->bindings.count > 0; /* else nothing but text is composed */
-    if (bound && plr_bind_check(c->kitchen, recipe, program)) {
+    if (bound && (plr_bind_check_samplers(c->kitchen, recipe, program) ||
+                  plr_bind_check(c->kitchen, recipe, program))) {
         plr_program_destroy(&program);
         *again = true;
         return NULL;

@@ -201,4 +201,23 @@ def material_textures():
     suite.check("which is another exponent", abs(got[0][0] - got[2][0]) > 0.01, got)
 
 
+
+@suite.case
+def too_many_samplers():
+    "an effect with more textures than a program can read is left out, with an error at the sampler"
+    count = 200
+    fields = " ".join(f"inputOutput SFNode i{k} {FIELD % ''}" for k in range(count))
+    code = ("\n".join(f"uniform sampler2D i{k};" for k in range(count))
+            + "\nvoid PLUG_fragment_modify(inout vec4 c) { c.r = "
+            + " + ".join(f"texture2D(i{k}, vec2(0.5)).r" for k in range(count)) + "; }")
+    green = effect("void PLUG_fragment_end(inout vec4 c) { c.g = 1.0; }")
+    text = front_scene(quad(WHITE, effect(code, fields) + green, "texture " + FIELD % ""))
+    result = suite.render(text, "--probe", "8,8", status=1)
+    suite.close("the rest is drawn", [float(w) for w in result.output.split()], (0.2, 1, 0.8, 1), 2e-3)
+    lines = text.splitlines()
+    errors = result.with_code("limit")
+    suite.check("an error at a sampler", len(errors) == 1 and "uniform sampler2D i" in lines[errors[0][1] - 1],
+                result.errors)
+
+
 suite.run()
