@@ -44,10 +44,7 @@ bool ground_at(float angle, inout vec3 color) {
 #endif
 
 void PLUG_background_color(inout vec4 color, const in vec3 direction_eye) {
-    /* 24.2.1: of the groups around it the background takes the turns, not the scales */
-    vec3 direction = direction_eye * mat3(unit_or_zero(nodeToEye[0].xyz),
-                                          unit_or_zero(nodeToEye[1].xyz),
-                                          unit_or_zero(nodeToEye[2].xyz));
+    vec3 direction = background_direction(nodeToEye, direction_eye);
     /* not acos: it loses digits at small angles, and Mesa's is coarse everywhere */
     float from_zenith = atan(length(direction.xz), direction.y);
     color.rgb = sky_at(from_zenith);

@@ -8,12 +8,13 @@ out vec4 plugray_FragColor;
 /* PLUG-DECLARATIONS */
 
 void main() {
-    vec2 ndc = (gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0;
+    vec2 place = (gl_FragCoord.xy - viewport.xy) / viewport.zw;
+    vec2 ndc = place * 2.0 - 1.0;
     mat4 p = castle_ProjectionMatrix;
     vec3 direction_eye = vec3(0.0, 0.0, -1.0);
     if (p[2][3] != 0.0)
         direction_eye = normalize(vec3((ndc + p[2].xy) / vec2(p[0][0], p[1][1]), -1.0));
     vec4 color = vec4(0.0, 0.0, 0.0, 1.0);
-    /* PLUG: background_color (color, direction_eye) */
+    /* PLUG: background_color (color, direction_eye) (color, direction_eye, place) */
     plugray_FragColor = vec4(color.rgb * color.a, color.a);
 }
