@@ -28,6 +28,7 @@ static const struct {
     {"Cylinder", plr_make_cylinder},
     {"Extrusion", plr_make_extrusion},
     {"Text", plr_make_text},
+    {"Text3D", plr_make_text},
     {"Teapot", plr_make_teapot},
     {"Plane", plr_make_rectangle},
     {"Rectangle2D", plr_make_rectangle},

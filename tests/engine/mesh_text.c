@@ -311,6 +311,9 @@ static void test_faults(void) {
     CHECK(!f.built && !plr_diags_count_of(f.diags, PLR_ERROR) &&
           !plr_diags_count_of(f.diags, PLR_WARNING));
     finish(&f);
+    f = build("Text3D { string \"H\" }");
+    CHECK(f.built && !f.mesh.two_sided);
+    finish(&f);
     f = build("Text { string \"HHHH\" maxDisplayChars 2 }");
     double two = (double)f.mesh.bounds[1][0];
     finish(&f);
