@@ -205,11 +205,11 @@ static void v_shadow_depth_bias(const context *c, float *out) {
 static void v_eye_to_projector(const context *c, float *out) {
     const plr_node *node = c->binding->node;
     const plr_node *projector = node ? plr_node_child(node, "projector") : NULL;
-    plr_matrix projection, from_world, to_world, scale = plr_matrix_scale(0.5, 0.5, 0.5);
+    plr_matrix from_world = plr_projector_clip(c->values->view, projector), to_world;
+    plr_matrix scale = plr_matrix_scale(0.5, 0.5, 0.5);
     plr_matrix product = plr_matrix_translation(0.5, 0.5, 0.5);
-    plr_projector_matrices(c->values->view, projector, &projection, &from_world);
     plr_matrix_invert(&c->values->frame->view, &to_world);
-    const plr_matrix *steps[] = {&scale, &projection, &from_world, &to_world};
+    const plr_matrix *steps[] = {&scale, &from_world, &to_world};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
         product = plr_matrix_multiply(&product, steps[i]);
     put(&product, out);

@@ -43,8 +43,8 @@ typedef struct plr_volume_state {
 /* Everything that the value of a uniform may depend on. */
 typedef struct plr_values {
     const plr_frame *frame;
-    const struct plr_view *view; /* that the frame shows; for projectors */
-    plr_matrix to_world;         /* of what is drawn */
+    struct plr_view *view; /* that the frame shows; for projectors */
+    plr_matrix to_world;   /* of what is drawn */
     const plr_volume_state *volumes;
     size_t volume_count;
     plr_texture *default_ramp; /* what a transfer function of NULL stands for */

@@ -265,3 +265,20 @@ bool plr_projector_matrices(const plr_view *view, const plr_node *projector, plr
     *projection = *world_to_projector = plr_matrix_identity();
     return false;
 }
+
+plr_matrix plr_projector_clip(plr_view *view, const plr_node *projector) {
+    uint64_t revision = plr_scene_revision(view->scene);
+    const size_t most = sizeof view->projections / sizeof *view->projections;
+    for (size_t i = 0; i < most; i++) {
+        const plr_projection *kept = &view->projections[i];
+        if (kept->projector == projector && kept->surfaces == view->surfaces &&
+            kept->revision == revision)
+            return kept->world_to_clip;
+    }
+    plr_matrix projection, to_eye;
+    plr_projector_matrices(view, projector, &projection, &to_eye);
+    plr_projection *kept = &view->projections[view->next_projection++ % most];
+    *kept = (plr_projection){projector, view->surfaces, revision,
+                             plr_matrix_multiply(&projection, &to_eye)};
+    return kept->world_to_clip;
+}

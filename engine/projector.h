@@ -17,6 +17,9 @@
 bool plr_projector_matrices(const plr_view *view, const plr_node *projector, plr_matrix *projection,
                             plr_matrix *world_to_projector);
 
+/* The product of both, kept until the scene changes. */
+plr_matrix plr_projector_clip(plr_view *view, const plr_node *projector);
+
 /* The projection to each face of a cube around a light that has a location, and its place in the
  * world: distances as of a PointLight. */
 plr_matrix plr_projector_cube(const plr_view *view, const plr_node *light, double place[3]);

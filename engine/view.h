@@ -108,6 +108,14 @@ typedef struct plr_world {
     PLR_WORLD_FIELDS
 } plr_world;
 
+/* What projectors saw last, so that every shape in their light need not look at all shapes anew. */
+typedef struct plr_projection {
+    const plr_node *projector;
+    const plr_surface *surfaces; /* the world's */
+    uint64_t revision;           /* of the scene */
+    plr_matrix world_to_clip;
+} plr_projection;
+
 struct plr_view {
     plr_arena arena;    /* of worlds: renewed when the scene changes */
     plr_arena lasting;  /* of what is kept then: textures, programs, sources */
@@ -132,6 +140,8 @@ struct plr_view {
         plr_kept_volume *items;
         size_t count, capacity;
     } kept_volumes;
+    plr_projection projections[8];
+    unsigned next_projection; /* to be replaced */
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_view_stats stats;
