@@ -134,6 +134,8 @@ static void validate_effects(link_job *job) {
     if (setjmp(out_of_memory) == 0) {
         const plr_program *program;
         plr_compose_program(&composer, &recipe, "link", &program);
+        for (size_t i = 0; i < job->effect_count; i++) /* the recipe has copies by now */
+            job->effects[i].disabled = recipe.effects.items[i].disabled;
         plr_unreached_report(&composer);
     } else {
         plr_diags_add(job->diags, PLR_CODE_NO_MEMORY, (plr_place){NULL, 0, 0}, "out of memory");
