@@ -44,6 +44,7 @@ static void add_image(plr_view *view, plr_background *background, const char *pa
     };
     plr_binding binding = {.node = node,
                            .to_world = background->to_world,
+                           .place = &background->to_world,
                            .volume = PLR_NO_EFFECT,
                            .texture = texture};
     plr_recipe_builtin(&view->kitchen, &background->pass.recipe, path, plr_node_type(node), binding,
@@ -83,8 +84,10 @@ static bool is_plain(const plr_view *view, const plr_node *node) {
 
 static void add_sky(plr_view *view, plr_background *background) {
     plr_kitchen *k = &view->kitchen;
-    plr_binding binding = {
-        .node = background->node, .to_world = background->to_world, .volume = PLR_NO_EFFECT};
+    plr_binding binding = {.node = background->node,
+                           .to_world = background->to_world,
+                           .place = &background->to_world,
+                           .volume = PLR_NO_EFFECT};
     plr_recipe_builtin(k, &background->pass.recipe, "background/Background",
                        plr_node_type(background->node), binding, 0, NULL, 0);
     for (int face = 0; face < 6; face++)

@@ -8,6 +8,7 @@ static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light
                        type,
                        (plr_binding){.node = light->node,
                                      .to_world = light->to_world,
+                                     .place = &light->to_world,
                                      .in_eye_space = light->in_eye_space,
                                      .volume = volume,
                                      .is_light = true},

@@ -11,12 +11,13 @@
 
 /* What an effect is bound to. */
 typedef struct plr_binding {
-    plr_node *node;       /* its fields give the uniforms; NULL: initialisers stand */
-    plr_matrix to_world;  /* of the node */
-    bool in_eye_space;    /* to_world is the identity of eye space (headlight) */
-    size_t volume;        /* index of the volume that it belongs to, or PLR_NO_EFFECT */
-    bool is_light;        /* the effect of a light itself */
-    plr_texture *texture; /* what the sampler `self` reads; NULL: the texture of the node */
+    plr_node *node;          /* its fields give the uniforms; NULL: initialisers stand */
+    plr_matrix to_world;     /* of the node */
+    const plr_matrix *place; /* where that is taken from when things move; NULL: it stays */
+    bool in_eye_space;       /* to_world is the identity of eye space (headlight) */
+    size_t volume;           /* index of the volume that it belongs to, or PLR_NO_EFFECT */
+    bool is_light;           /* the effect of a light itself */
+    plr_texture *texture;    /* what the sampler `self` reads; NULL: the texture of the node */
     const struct plr_shadow_values *shadow; /* of an effect that reads a shadow map; or NULL */
 } plr_binding;
 

@@ -10,8 +10,10 @@ enum {
 
 static size_t add_placed(plr_shape *shape, const char *path, const plr_placed *placed,
                          const plr_define *extra, size_t extra_count) {
-    plr_binding binding = {
-        .node = placed->node, .to_world = placed->to_world, .volume = PLR_NO_EFFECT};
+    plr_binding binding = {.node = placed->node,
+                           .to_world = placed->to_world,
+                           .place = &placed->to_world,
+                           .volume = PLR_NO_EFFECT};
     return plr_recipe_builtin(&shape->view->kitchen, shape->recipe, path,
                               plr_node_type(placed->node), binding, 0, extra, extra_count);
 }

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "engine/frame.h"
+#include "engine/changes.h"
 #include "engine/targets.h"
 
 /* ---- The scene at a time ---- */
@@ -110,6 +110,13 @@ static void remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
     plr_view_set_diags(view, NULL);
 }
 
+static void follow(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
+    plr_change change = plr_view_changed(view);
+    if (change == PLR_CHANGE_PARTS || (change == PLR_CHANGE_PLACES && !plr_view_move(view, eye)))
+        remake(view, eye, diags);
+    view->revision = plr_scene_revision(view->scene);
+}
+
 bool plr_view_update(plr_view *view, double time, plr_diags *diags) {
     jmp_buf out_of_memory;
     volatile bool fine = true;
@@ -117,8 +124,8 @@ bool plr_view_update(plr_view *view, double time, plr_diags *diags) {
     if (setjmp(out_of_memory) == 0) {
         plr_matrix eye = plr_matrix_identity();
         view->desc.time = time;
-        if (plr_view_live(view, &eye, diags) && view->revision != plr_scene_revision(view->scene))
-            remake(view, &eye, diags);
+        if (plr_view_live(view, &eye, diags))
+            follow(view, &eye, diags);
     } else {
         fine = false;
         plr_view_set_diags(view, NULL);

@@ -180,10 +180,13 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
     const char *components = plr_arena_format(&view->arena, "%u", state->voxels->components);
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, 1, plr_define);
     *extra = (plr_define){"voxels_COMPONENTS", components};
-    *attached = plr_recipe_builtin(
-        &view->kitchen, recipe, "volume/Volume", plr_node_type(state->node),
-        (plr_binding){.node = state->node, .to_world = state->to_world, .volume = index}, 0, extra,
-        1);
+    *attached =
+        plr_recipe_builtin(&view->kitchen, recipe, "volume/Volume", plr_node_type(state->node),
+                           (plr_binding){.node = state->node,
+                                         .to_world = state->to_world,
+                                         .place = &state->to_world,
+                                         .volume = index},
+                           0, extra, 1);
     style_list list = {view, recipe, index, *attached, components, true, diags};
     add_styles(&list, plr_node_child(state->node, "renderStyle"));
     size_t from = recipe->effects.count;

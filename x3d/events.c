@@ -26,12 +26,25 @@ uint64_t plr_scene_revision(const plr_scene *scene) {
 void x3d_events_was_set(plr_scene *scene, plr_node *node, size_t index, bool same) {
     node->revision += !same;
     scene->revision += !same;
+    if (!same)
+        scene->set_revision = scene->revision;
     x3d_event_field *field = node->events ? node->events->fields[index] : NULL;
     if (!field)
         return;
     field->original = node->fields[index];
     field->changed = false;
     field->has_shown = false;
+}
+
+bool plr_scene_changes(const plr_scene *scene, uint64_t since,
+                       void (*visit)(void *user, plr_node *node, const plr_field *field),
+                       void *user) {
+    if (scene->set_revision > since)
+        return false;
+    for (x3d_event_field *f = scene->events ? scene->events->listed : NULL; f; f = f->next_listed)
+        if (f->changed_at > since)
+            visit(user, f->owner->node, &f->owner->node->fields[f->index]);
+    return true;
 }
 
 /* ---- One moment ---- */

@@ -27,6 +27,7 @@ typedef struct x3d_event_field {
     plr_field original; /* as file and setters gave it */
     x3d_event_value current;
     x3d_event_value shown; /* when the last call ended */
+    uint64_t changed_at;   /* the revision of the scene when it was last another value */
     size_t first_route, route_count;
     struct x3d_event_field *next_listed;
 } x3d_event_field;

@@ -143,6 +143,6 @@ void x3d_events_compare(x3d_events *ev) {
         keep(&ev->scene->arena, &field->shown, now->value.any, now->count, element_size(now->type));
         field->has_shown = true;
         node->revision++;
-        ev->scene->revision++;
+        field->changed_at = ++ev->scene->revision;
     }
 }

@@ -111,6 +111,7 @@ struct plr_scene {
     plr_place place_2005;
     struct x3d_events *events; /* NULL until a time is asked for */
     uint64_t revision;
+    uint64_t set_revision; /* the last one that a setter made */
 };
 
 /* Reports to the diagnostics of the running call. After some hundred errors and warnings the rest

@@ -267,6 +267,12 @@ PLR_API bool plr_node_set(plr_scene *scene, plr_node *node, const char *field, c
 /* Grows whenever a field of the node (of any node of the scene) is set to another value. */
 PLR_API uint64_t plr_node_revision(const plr_node *node);
 PLR_API uint64_t plr_scene_revision(const plr_scene *scene);
+/* Calls `visit` for each field that time has set to another value since the scene had the revision
+ * `since`, perhaps more than that; false where setters have set some, too: then anything may have
+ * changed. */
+PLR_API bool plr_scene_changes(const plr_scene *scene, uint64_t since,
+                               void (*visit)(void *user, plr_node *node, const plr_field *field),
+                               void *user);
 /* What the node does to the coordinates of its children: column-major, element (row, column) at
  * column * 4 + row. False, and the identity, for nodes that leave them alone. */
 PLR_API bool plr_node_transform(const plr_node *node, double matrix[16]);

@@ -5,7 +5,7 @@ import os
 import re
 
 from harness import Suite
-from scenes import constant, effect, front_scene, quad, volume
+from scenes import constant, effect, front_scene, quad, scene, volume
 
 suite = Suite()
 
@@ -56,6 +56,34 @@ def frames():
     result = suite.render(text, "-o", "p%03d.npy", "--frames", "2")
     suite.equal("numbers where the name says", sorted(os.listdir(result.folder)),
                 ["p001.npy", "p002.npy", "scene.x3dv"])
+
+
+@suite.case
+def everything_moves():
+    "what moved from frame to frame is where it is when it is drawn alone, to the bit"
+    moving = "DEF {0} Transform {{ children [ {1} ] }}\n"
+    parts = (
+        ("V", "Viewpoint { position 0 .2 3 }"), ("S", quad("Material { diffuseColor .8 .6 .4 }")),
+        ("L", "PointLight { location 0 .3 1 global TRUE attenuation 1 .2 .1 }"),
+        ("G", "DirectionalLight { direction -.2 0 -1 color 0 1 0 } "
+              "ClipPlane { plane 1 .2 0 .3 } LocalFog { color 0 0 1 visibilityRange 9 } "
+              + quad("Material { diffuseColor 1 1 1 }", geometry="Sphere { radius .4 }")),
+        ("B", "Background { skyColor [ 0 0 1, 1 1 0 ] skyAngle 1.5 }"),
+        ("D", volume(constant(40, (2, 2, 2)))))
+    text = scene(CLOCK, *(moving.format(name, content) for name, content in parts),
+                 *(interpolated("Position", "0 1", f"0 0 0 .{i + 1} .{7 - i} -.{i}", f"{name}.translation",
+                                "P" + name) for i, (name, _) in enumerate(parts)),
+                 *(interpolated("Orientation", "0 1", f"0 1 .{i} 0 0 1 .{i} .{i + 1}",
+                                f"{name}.rotation", "O" + name) for i, (name, _) in enumerate(parts)))
+    result = suite.render(text, "-o", "a.npy", "--frames", "3", "--fps", "1")
+    pictures = []
+    for frame in range(3):
+        alone = suite.render(text, "-o", "b.npy", "--time", str(frame))
+        with open(os.path.join(result.folder, f"a-000{frame + 1}.npy"), "rb") as a, \
+                open(os.path.join(alone.folder, "b.npy"), "rb") as b:
+            pictures.append(a.read())
+            suite.check(f"frame {frame + 1}", pictures[-1] == b.read())
+    suite.check("they differ", len(set(pictures)) == 3)
 
 
 @suite.case
