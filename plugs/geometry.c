@@ -118,6 +118,7 @@ plr_binding *plr_geometry_output(plr_linking *l, const plr_unit *unit, uint32_t 
 typedef struct joint {
     const char *text; /* in the program; not terminated */
     uint32_t length;
+    plr_binding *symbol;
     const plr_node *node;
     const plr_name *name;
 } joint;
@@ -131,6 +132,26 @@ static int by_text(const void *a, const void *b) {
     return order ? order : (x->length > y->length) - (x->length < y->length);
 }
 
+/* What an item declares of that kind: a variable, a block, or those of a conditional. */
+static void collect_item(plr_linking *l, const plr_node *node, uint8_t qualifiers, joints *list) {
+    const plr_unit *unit = node->unit;
+    const plr_name *names = &unit->cut->names.items[node->item->names];
+    bool group = node->item->kind == PLR_ITEM_GROUP;
+    if (!node->reached || node->dropped ||
+        !(group || node->item->kind == PLR_ITEM_VARIABLE || node->item->kind == PLR_ITEM_BLOCK))
+        return;
+    for (uint32_t n = 0; n < (group ? node->item->name_count : 1); n++) {
+        plr_binding *symbol =
+            group ? plr_binding_find(l, unit->scope, plr_token_gid(unit, names[n].token))
+                  : node->symbol;
+        if (!symbol || !(names[n].qualifiers & qualifiers))
+            continue;
+        joint *added = PLR_PUSH(l->pass, list);
+        *added = (joint){.symbol = symbol, .node = node, .name = &names[n]};
+        added->text = plr_binding_text(l, symbol, &added->length);
+    }
+}
+
 /* The reached variables of a stage with one of the qualifiers, by name in the program. */
 static joints collect(plr_linking *l, plr_stage stage, uint8_t qualifiers) {
     joints list = {NULL, 0, 0};
@@ -138,17 +159,9 @@ static joints collect(plr_linking *l, plr_stage stage, uint8_t qualifiers) {
         const plr_scope *scope = plr_scope_of(l, stage, e);
         for (uint32_t u = 0; u < scope->unit_count; u++) {
             const plr_unit *unit = &scope->units[u];
-            for (size_t i = 0; unit->nodes && i < unit->cut->items.count; i++) {
-                const plr_node *node = &unit->nodes[i];
-                const plr_name *name = &unit->cut->names.items[node->item->names];
-                if (node->item->kind != PLR_ITEM_VARIABLE || !node->reached || node->dropped ||
-                    !node->symbol || !(name->qualifiers & qualifiers))
-                    continue;
-                joint *added = PLR_PUSH(l->pass, &list);
-                added->text = plr_binding_text(l, node->symbol, &added->length);
-                added->node = node;
-                added->name = name;
-            }
+            for (size_t i = 0; unit->nodes && i < unit->cut->items.count; i++)
+                if (unit->cut->items.items[i].name_count)
+                    collect_item(l, &unit->nodes[i], qualifiers, &list);
         }
     }
     if (list.count)
@@ -209,10 +222,40 @@ static void pass(plr_linking *l, const joint *from, const joint *to, bool declar
     read_type(l, to, &passed.type, &passed.output);
     passed.whole = is_whole(&passed);
     *PLR_PUSH(l->pass, &l->passed) = passed;
-    plr_binding *symbol = to->node->symbol;
-    symbol->passed = true;
-    symbol->text = passed.passed;
-    symbol->length = (uint32_t)strlen(passed.passed);
+    to->symbol->passed = true;
+    to->symbol->text = passed.passed;
+    to->symbol->length = (uint32_t)strlen(passed.passed);
+}
+
+/* Why a varying cannot be handed on; NULL: it can. */
+static const char *obstacle(plr_linking *l, const joint *variable) {
+    const plr_unit *unit = variable->node->unit;
+    const plr_token *type =
+        variable->name->type == PLR_NONE ? NULL : &unit->lexed->tokens.items[variable->name->type];
+    if (variable->node->item->kind == PLR_ITEM_GROUP)
+        return "whether it is there is known to the compiler alone";
+    if (variable->node->item->kind == PLR_ITEM_BLOCK)
+        return "it is a block";
+    if (!type || type->kind != PLR_T_IDENT || unit->refs[type->value])
+        return "its type is none of GLSL's own";
+    return array_of(l, variable) == UINT32_MAX ? "the size of its array is no number" : NULL;
+}
+
+/* Leaves out the effect that has such a varying; if the base has it, the one with main(). */
+static void refuse(plr_linking *l, const joint *variable, const char *why) {
+    const plr_unit *unit = variable->node->unit;
+    uint32_t owner = unit->scope->owner < l->effect_count ? unit->scope->owner : l->main_effect;
+    if (owner == PLR_NONE || l->unfit[owner])
+        return;
+    plr_message *message = PLR_NEW(l->arena, plr_message);
+    *message = (plr_message){
+        .severity = PLR_ERROR,
+        .code = PLR_CODE_GLSL_LINK,
+        .place = plr_token_place(unit, variable->name->token),
+        .text = plr_arena_format(l->arena, "\"%s\" cannot go through the geometry stage: %s",
+                                 plr_gid_text(l, plr_token_gid(unit, variable->name->token)), why)};
+    l->unfit[owner] = message;
+    l->again = true;
 }
 
 /* Names that were to be copied have another text now. */
@@ -254,8 +297,12 @@ void plr_pass_varyings(plr_linking *l) {
     joints outputs = collect(l, PLR_GEOMETRY, PLR_Q_OUT);
     for (size_t i = 0; i < taken.count; i++) {
         const joint *to = &taken.items[i], *from = find(&given, to);
-        bool by_hand = to->node->symbol->macro || find(&outputs, to);
-        if (from && !by_hand && !to->node->symbol->passed)
+        if (!from || to->symbol->macro || to->symbol->passed || find(&outputs, to))
+            continue;
+        const char *why = obstacle(l, to);
+        if (why || (why = obstacle(l, from)))
+            refuse(l, to, why);
+        else
             pass(l, from, to, find(&inputs, to) != NULL);
     }
     rename_passed(l);

@@ -192,6 +192,8 @@ static void run_rounds(plr_program *program) {
         }
         if (l->placements)
             plr_leave_inactive(l);
+        if (!l->again)
+            plr_pass_varyings(l);
         if (!restart(program))
             return;
         round = 0;
@@ -285,7 +287,6 @@ static bool link_program(plr_program *program, plr_diags *diags) {
     run_rounds(program);
     if (!l->base_fault) {
         plr_say_stages(l);
-        plr_pass_varyings(l);
         for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
             if (l->stages & 1u << s)
                 compose_stage(program, (plr_stage)s);

@@ -250,7 +250,7 @@ typedef struct plr_linking {
     bool base_fault;
     uint32_t main_effect; /* whose main() the geometry stage has; PLR_NONE: none's, so far */
     PLR_LIST(plr_passed) passed;
-    bool passes_size; /* of points */
+    bool passes_size;  /* of points */
     uint32_t compared; /* names with unknown ones */
 
     /* Versions. */
@@ -374,7 +374,8 @@ plr_binding *plr_entry(const plr_linking *l, plr_stage stage);
 bool plr_declare_main(plr_linking *l, plr_node *node, const plr_name *name);
 /* Says which parts of effects are left out because there is no such stage. */
 void plr_say_stages(plr_linking *l);
-/* Finds the varyings to be carried through the stage, once everything is reached. */
+/* Finds the varyings to be carried through the stage, once everything is reached; effects with what
+ * cannot be carried are to be left out. */
 void plr_pass_varyings(plr_linking *l);
 /* An output of the effect's geometry unit that its fragment units name without declaring it: a
  * binding for them; NULL: there is none. */

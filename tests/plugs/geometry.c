@@ -60,6 +60,39 @@ static void test_passing(void) {
     CHECK_STR(text, "'mine' and normal");
 }
 
+/* What cannot be handed on makes its effect faulty, and nothing else. */
+static void test_obstacles(void) {
+    static const struct {
+        const char *head, *declaration, *set, *get;
+        unsigned line, column;
+    } rows[] = {
+        {"struct S { float a; };\n", " S s;\n", "s.a = 1.0;", "s.a", 2, 6},
+        {"", " B { float a; } b;\n", "b.a = 1.0;", "b.a", 1, 4},
+        {"const int n = 2;\n", " float s[n + 1];\n", "s[0] = 1.0;", "s[0]", 2, 10},
+        {"#ifdef GL_ARB_gpu_shader5\n", " float s;\n#else\n", "s = 1.0;", "s", 2, 10},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char fragment[512], vertex[512], place[64];
+        const char *tail = *rows[i].head == '#' ? "float unused;\n#endif\n" : "";
+        snprintf(fragment, sizeof fragment,
+                 "%sin%s%svoid PLUG_change(inout vec4 c) { c.r = %s; }\n", rows[i].head,
+                 rows[i].declaration, tail, rows[i].get);
+        snprintf(vertex, sizeof vertex, "%sout%s%svoid PLUG_move(inout vec4 p) { %s }\n",
+                 rows[i].head, rows[i].declaration, tail, rows[i].set);
+        start();
+        effect(fragment);
+        vertex_unit(vertex);
+        effect("void PLUG_change(inout vec4 c) { c.g = 0.0; }\n");
+        geometry_unit(LAYOUT MAIN);
+        const linked *r = link_valid();
+        snprintf(place, sizeof place, "a.frag:%u:%u: error", rows[i].line, rows[i].column);
+        CHECK_SAID(place, "glsl-link");
+        CHECK(plr_program_is_faulty(r->program, 0));
+        CHECK_HAS(r->fragment, "plr1_change(result);");
+        CHECK_HAS(r->geometry, "plr_geo_normal = normal[index];");
+    }
+}
+
 static void test_size_of_points(void) {
     for (int sized = 0; sized < 2; sized++) {
         start();
@@ -234,6 +267,7 @@ static void test_complete_shader(void) {
 int main(void) {
     read_base();
     test_passing();
+    test_obstacles();
     test_size_of_points();
     test_blending();
     test_by_hand();
