@@ -37,6 +37,8 @@ plr_define plr_shape_define(plr_shape *shape, const char *name, int value);
 
 void plr_shape_material(plr_shape *shape);
 void plr_shape_textures(plr_shape *shape);
+/* Normals and heights from textures. */
+void plr_shape_bumps(plr_shape *shape);
 void plr_shape_lights(plr_shape *shape);
 /* Patterns of lines and areas, sizes of points, the test of alpha. */
 void plr_shape_properties(plr_shape *shape);

@@ -59,9 +59,9 @@ static void compose(plr_shape *shape) {
 }
 
 static void compose_standard(plr_shape *shape) {
-    static void (*const ingredients[])(plr_shape *) = {plr_shape_material, plr_shape_textures,
-                                                       plr_shape_lights, plr_shape_properties,
-                                                       plr_shape_surroundings};
+    static void (*const ingredients[])(plr_shape *) = {
+        plr_shape_material, plr_shape_textures,   plr_shape_lights, /* then: what scales light */
+        plr_shape_bumps,    plr_shape_properties, plr_shape_surroundings};
     *shape->recipe =
         (plr_recipe){.base = *plr_catalog_units(shape->view->kitchen.catalog, "surface/surface")};
     define_surface(shape);

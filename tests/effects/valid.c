@@ -251,6 +251,10 @@ static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}
 static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
 static const plr_define irradiance[] = {{"HAS_diffuseTexture", "1"},
                                         {"diffuseTexture_DIMENSIONS", "6"}};
+static const plr_define first_channel[] = {{"CHANNEL", "0"}};
+static const plr_define shifted[] = {
+    {"CHANNEL", "0"},   {"DIMENSIONS", "2"}, {"PROJECTIVE", "0"},
+    {"REFLECTED", "0"}, {"SHIFTED", "1"},    {"DATA", "1"}};
 static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
@@ -428,6 +432,15 @@ static const recipe recipes[] = {
      DEFINES(plain),
      .present = "castle_FogCoord discard exp",
      .absent = "volumetric"},
+    {"bumps",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "surface/NormalMap", DEFINES(first_channel)},
+      {.path = "textures/Texture", DEFINES(shifted)},
+      {.path = "surface/HeightMap"}},
+     DEFINES(plain),
+     .present = "normalScale dFdx heightMapScale"},
     {"patterns, sizes and holes",
      "surface/surface",
      {{.path = "surface/UnlitMaterial"},
