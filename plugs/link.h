@@ -314,9 +314,6 @@ plr_binding *plr_declare_name(plr_linking *l, plr_node *node, const plr_name *na
 plr_action plr_resolve(plr_linking *l, plr_unit *unit, uint32_t local);
 const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *length);
 plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint32_t gid);
-bool plr_same_tokens(const plr_unit *a, uint32_t a_first, uint32_t a_end, const plr_unit *b,
-                     uint32_t b_first, uint32_t b_end);
-
 /* Whether a token names no symbol: only a macro of its own scope replaces members and locals. */
 static inline bool plr_is_plain(const plr_unit *unit, const plr_token *token,
                                 const plr_binding *symbol) {
@@ -332,6 +329,14 @@ static inline bool plr_is_hidden_local(const plr_linking *l, const plr_unit *uni
     return symbol && symbol->macro && token->flags & PLR_TF_LOCAL && symbol->scope != unit->scope &&
            unit->scope->owner < l->effect_count;
 }
+
+/* compare.c: whether two declarations say the same: token by token; as items; as types of
+ * variables, less what does not matter to them; as parameters of functions. */
+bool plr_same_tokens(const plr_unit *a, uint32_t a_first, uint32_t a_end, const plr_unit *b,
+                     uint32_t b_first, uint32_t b_end);
+bool plr_same_item(const plr_unit *a, const plr_item *x, const plr_unit *b, const plr_item *y);
+bool plr_same_type(const plr_unit *a, const plr_item *x, const plr_unit *b, const plr_item *y);
+bool plr_same_signature(const plr_unit *a, const plr_name *x, const plr_unit *b, const plr_name *y);
 
 /* sockets.c: plugs and the functions called there. */
 void plr_add_sockets(plr_linking *l, plr_unit *unit);
