@@ -191,7 +191,7 @@ static void visit_viewpoint(walk *w, plr_node *node, const plr_matrix *matrix) {
         for (int k = 0; length > 0 && k < 3; k++)
             v[k] /= length;
     }
-    *PLR_PUSH(w->arena, &w->flat->viewpoints) = (plr_viewpoint){node, placed};
+    *PLR_PUSH(w->arena, &w->flat->viewpoints) = (plr_viewpoint){.node = node, .to_world = placed};
 }
 
 static void visit_volume(walk *w, plr_node *node, const plr_matrix *matrix) {
@@ -303,6 +303,14 @@ static void add_headlight(plr_arena *arena, plr_flat *flat) {
             (plr_light){.node = node, .to_world = plr_matrix_identity(), .in_eye_space = true};
 }
 
+static void limit_views(plr_flat *flat) {
+    double limit = flat->navigation ? plr_node_number(flat->navigation, "visibilityLimit") : 0;
+    flat->standard.to_world = plr_matrix_translation(0, 0, 10);
+    flat->standard.limit = limit;
+    for (size_t i = 0; i < flat->viewpoints.count; i++)
+        flat->viewpoints.items[i].limit = limit;
+}
+
 void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_world, plr_flat *flat,
                  plr_diags *diags) {
     *flat = (plr_flat){.has_eye = eye_to_world != NULL};
@@ -313,6 +321,7 @@ void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_wo
     for (size_t i = 0; i < plr_scene_root_count(scene); i++)
         visit(&w, plr_scene_root(scene, i), &identity);
     add_headlight(arena, flat);
+    limit_views(flat);
 }
 
 void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
@@ -331,4 +340,5 @@ void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const 
     }
     if (flat->navigation)
         add_headlight(arena, flat);
+    limit_views(flat);
 }

@@ -57,6 +57,7 @@ typedef struct plr_leaves {
 typedef struct plr_viewpoint {
     plr_node *node;      /* NULL: the standard's default */
     plr_matrix to_world; /* without scale */
+    double limit;        /* NavigationInfo's visibilityLimit, or 0 */
 } plr_viewpoint;
 
 typedef struct plr_flat {
@@ -67,6 +68,7 @@ typedef struct plr_flat {
         plr_viewpoint *items;
         size_t count, capacity;
     } viewpoints;
+    plr_viewpoint standard;            /* where there is none */
     plr_node *background, *navigation; /* the bound one of each, else the first, or NULL */
     plr_matrix background_to_world;
     plr_placed fog;         /* the first Fog */
@@ -95,7 +97,8 @@ const plr_viewpoint *plr_flat_bound(const plr_flat *flat, const plr_viewpoint *c
  * what is drawn with a depth buffer; the viewpoint's own distances override them. */
 void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double height,
                             const double depths[2], plr_matrix *projection, plr_matrix *view);
-/* The cut that the viewpoint asks for: its nearDistance and farDistance, or 0 and INFINITY. */
+/* The cut that the viewpoint asks for: its nearDistance and farDistance, else the limit of what is
+ * visible; or 0 and INFINITY. */
 void plr_viewpoint_cut(const plr_viewpoint *viewpoint, double cut[2]);
 
 #endif

@@ -6,11 +6,9 @@
 #include <string.h>
 
 const plr_viewpoint *plr_flat_viewpoint(const plr_flat *flat, const char *selector) {
-    static const plr_viewpoint standard = {NULL,
-                                           {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 10, 1}}};
     size_t count = flat->viewpoints.count;
     if (!selector || !*selector)
-        return count ? &flat->viewpoints.items[0] : &standard;
+        return count ? &flat->viewpoints.items[0] : &flat->standard;
     char *end;
     unsigned long number = strtoul(selector, &end, 10);
     if (!*end && *selector != '-')
@@ -36,7 +34,7 @@ void plr_viewpoint_cut(const plr_viewpoint *viewpoint, double cut[2]) {
     double near = viewpoint->node ? plr_node_number(viewpoint->node, "nearDistance") : 0;
     double far = viewpoint->node ? plr_node_number(viewpoint->node, "farDistance") : 0;
     cut[0] = near > 0 ? near : 0;
-    cut[1] = far > 0 ? far : INFINITY;
+    cut[1] = far > 0 ? far : viewpoint->limit > 0 ? viewpoint->limit : INFINITY;
 }
 
 /* The box of an OrthoViewpoint grows along one axis until it has the picture's shape. */
@@ -56,6 +54,8 @@ void plr_viewpoint_matrices(const plr_viewpoint *viewpoint, double width, double
     double cut[2];
     plr_viewpoint_cut(viewpoint, cut);
     double near = cut[0] > 0 ? cut[0] : depths[0], far = isfinite(cut[1]) ? cut[1] : depths[1];
+    if (!(cut[0] > 0) && near >= far) /* all that is there is beyond: nothing is seen */
+        near = far > 0 ? far / 2 : far - 1;
     if (!(far > near))
         far = near + 1 + fabs(near);
     double aspect = width / height;

@@ -235,6 +235,18 @@ def headlights():
 
 
 @suite.case
+def visibility_limit():
+    "what is farther than the visibilityLimit is not drawn, unless the viewpoint says how far"
+    for view in ("Viewpoint { position 0 0 10 fieldOfView .01 }", "OrthoViewpoint { position 0 0 10 }",
+                 "Viewpoint { position 0 0 10 fieldOfView .01 farDistance 20 }", ""):
+        for limit in (0, 9, 11):
+            text = scene(f"NavigationInfo {{ headlight FALSE visibilityLimit {limit} }}\n", view,
+                         colored("1 0 0"))
+            seen = limit != 9 or "farDistance" in view
+            suite.close(f"{view} {limit}", middle(text), RED if seen else NOTHING)
+
+
+@suite.case
 def bound_navigation():
     "a NavigationInfo and a Background that are bound by events are used"
     text = scene("OrthoViewpoint { position 0 0 10 fieldOfView -1 -1 1 1 }\nNavigationInfo { }\n"
