@@ -104,6 +104,7 @@ void plr_targets_prepare(plr_view *view, plr_diags *diags) {
         target->never = target->never || plr_node_is(target->node, "GeneratedShadowMap");
     }
     plr_casters_prepare(view); /* for maps that only authors read */
+    view->targets.order = PLR_NEW_ARRAY(&view->arena, view->targets.count + 1, size_t);
 }
 
 /* A map that stands for a light's default is drawn, unless its author says how it is to be updated.
@@ -133,6 +134,8 @@ void plr_targets_find(plr_view *view) {
 }
 
 void plr_targets_finish(plr_view *view) {
+    if (view->entered) /* something went wrong in there */
+        plr_view_enter(view, view->entered);
     for (size_t i = 0; i < view->targets.count; i++) {
         plr_target *target = view->targets.items[i];
         plr_canvas_destroy(&target->canvas);
@@ -145,92 +148,12 @@ void plr_targets_finish(plr_view *view) {
     view->targets.count = 0;
 }
 
-/* ---- The order ---- */
-
-static void need_texture(plr_view *view, const plr_texture *texture);
-
-static void need_all_of(plr_view *view, const plr_slots *slots) {
-    size_t at = 0;
-    const plr_texture *texture;
-    while ((texture = plr_bind_next_texture(slots, &at)))
-        if (texture->generated)
-            need_texture(view, texture);
-}
-
-/* Everything that the world's programs read. */
-static void need_world(plr_view *view, const plr_world *world, const plr_background *background) {
-    need_all_of(view, &background->pass.slots);
-    for (size_t i = 0; i < world->volumes.cast_count; i++)
-        need_all_of(view, &world->volumes.casts[i].pass.slots);
-    for (size_t i = 0; i < world->model_count; i++)
-        need_all_of(view, &world->models[i]->pass.slots);
-}
-
-static void need_casters(plr_view *view, const plr_world *world) {
-    for (size_t i = 0; i < world->model_count; i++)
-        if (world->models[i]->caster)
-            need_all_of(view, &world->models[i]->caster->pass.slots);
-}
-
-static const plr_surface *find_reader(const plr_world *world, const plr_texture *texture) {
-    for (size_t i = 0; i < world->surface_count; i++)
-        if (plr_bind_reads(&world->surfaces[i].model->pass.slots, texture))
-            return &world->surfaces[i];
-    return NULL;
-}
-
-/* A cube map shows what is around the first shape that reads it, in the world of that. */
-static void find_world(plr_view *view, plr_target *target) {
-    target->world = target->shadow ? target->shadow->world : target->own;
-    if (target->texture->kind != PLR_TEXTURE_CUBE || target->shadow)
-        return;
-    target->reader = find_reader(&view->world, target->texture);
-    for (size_t i = 0; !target->reader && i < view->targets.count; i++) {
-        target->world = view->targets.items[i]->own;
-        if (target->world)
-            target->reader = find_reader(target->world, target->texture);
-    }
-}
-
-static void need_target(plr_view *view, plr_target *target, size_t index) {
-    if (target->state == TARGET_OPEN)
-        target->clear = true; /* a circle: what it held is of the picture before */
-    if (target->state != TARGET_UNSEEN)
-        return;
-    target->state = TARGET_OPEN;
-    find_world(view, target);
-    const plr_world *world = target->world ? target->world : &view->world;
-    bool draws = !target->never && !(target->once && target->drawn);
-    if (draws && target->shadow)
-        need_casters(view, world);
-    else if (draws)
-        need_world(view, world, target->background ? target->background : &world->background);
-    target->state = TARGET_DONE;
-    view->targets.order[view->targets.order_count++] = index;
-}
-
-static void need_texture(plr_view *view, const plr_texture *texture) {
-    for (size_t i = 0; i < view->targets.count; i++)
-        if (view->targets.items[i]->texture == texture)
-            need_target(view, view->targets.items[i], i);
-}
-
-static void find_order(plr_view *view) {
-    plr_targets *targets = &view->targets;
-    if (targets->order_capacity < targets->count) {
-        targets->order = PLR_NEW_ARRAY(&view->arena, targets->count, size_t);
-        targets->order_capacity = targets->count;
-    }
-    targets->order_count = 0;
-    for (size_t i = 0; i < targets->count; i++)
-        targets->items[i]->state = TARGET_UNSEEN;
-    need_world(view, &view->world, &view->background);
-}
+/* ---- Drawing ---- */
 
 void plr_targets_draw(plr_view *view, const plr_frame *here) {
     if (!view->targets.count)
         return;
-    find_order(view);
+    plr_targets_order(view, here);
     for (size_t i = 0; i < view->targets.order_count; i++)
         plr_target_clear(view, view->targets.items[view->targets.order[i]]);
     for (size_t i = 0; i < view->targets.order_count; i++) {

@@ -88,6 +88,8 @@ static bool generate_picture(plr_textures *t, plr_texture *texture) {
     const plr_field *sizes = plr_node_field(texture->node, "dimensions");
     texture->width = side(sizes && sizes->count > 0 ? sizes->value.ints[0] : 128);
     texture->height = side(sizes && sizes->count > 1 ? sizes->value.ints[1] : 128);
+    const plr_field *depths = plr_node_field(texture->node, "depthMap");
+    texture->depth = depths && depths->count > 0 && depths->value.bools[0];
     return true;
 }
 

@@ -86,7 +86,7 @@ typedef struct plr_targets {
     struct plr_target **items;
     size_t count, capacity;
     size_t *order; /* of drawing */
-    size_t order_count, order_capacity;
+    size_t order_count;
 } plr_targets;
 
 /* What is drawn together: the scene, or what a RenderedTexture shows in its place. A view has the
