@@ -65,6 +65,16 @@ static size_t fuzz_scene(const char *text, size_t length) {
             fuzz_node(scene, plr_scene_root(scene, i), seen, &sum);
         for (size_t i = 0; i < plr_scene_route_count(scene); i++)
             fuzz_node(scene, plr_scene_route(scene, i)->from, seen, &sum);
+        /* To and fro in time, and all fields again. */
+        const plr_viewer viewer = {
+            .eye_to_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 9, 1},
+            .world_to_eye = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -9, 1},
+            .projection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -2, 0}};
+        plr_scene_set_time(scene, 1.3, &viewer, diags);
+        plr_scene_set_time(scene, 0, NULL, diags);
+        memset(seen, 0, plr_scene_node_count(scene));
+        for (size_t i = 0; i < plr_scene_root_count(scene); i++)
+            fuzz_node(scene, plr_scene_root(scene, i), seen, &sum);
         free(seen);
     } else if (!plr_diags_count_of(diags, PLR_ERROR)) {
         fuzz_fault(); /* no scene without a word */
