@@ -82,7 +82,7 @@ void plr_say_stages(plr_linking *l) {
             const plr_source *source = first_source(&l->desc->effects[e], (plr_stage)s);
             if (!source || l->stages & 1u << s || l->faulty[e] || l->left_out[e])
                 continue;
-            plr_place place = plr_source_place(source, 0);
+            plr_place place = plr_source_place(source, source->lexed.tokens.items[0].offset);
             if (!(offered & 1u << s))
                 plr_say(l, PLR_CODE_WRONG_STAGE, place,
                         "the base shader has no %s stage; this part of %s is left out",

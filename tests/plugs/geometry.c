@@ -239,10 +239,10 @@ static void test_base_without(void) {
     begin();
     base("out vec4 c;\nvoid main() {\n  c = vec4(1.0);\n  /* PLUG: change (c) */\n}\n");
     effect("void PLUG_change(inout vec4 c) { c.r = 0.0; }\n");
-    geometry_unit(LAYOUT MAIN);
+    geometry_unit("\n  " LAYOUT MAIN);
     vertex_unit("void PLUG_move(inout vec4 p) { }\n");
     const linked *r = link_valid();
-    CHECK_SAID("a.geom:1:1: warning", "wrong-stage");
+    CHECK_SAID("a.geom:2:3: warning", "wrong-stage");
     CHECK_SAID("a.vert:1:1: warning", "wrong-stage");
     CHECK_INT(plr_diags_count(r->diags), 2);
 }

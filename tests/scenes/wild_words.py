@@ -74,6 +74,21 @@ def cube_maps():
 
 
 @suite.case
+def shadow_maps():
+    "shadow2D and shadow2DProj compare with the shadow map of a light, and give a vec4"
+    spot = ("SpotLight { location 0 0 5 direction 0 0 -1 shadows TRUE "
+            "defaultShadowMap DEF Map GeneratedShadowMap { size 64 update \"ALWAYS\" } }\n")
+    code = ("color.r = shadow2DProj(shadowMap, vec4(1.0, 1.0, 0.0002, 2.0)).r * 0.25;"
+            " color.g = shadow2D(shadowMap, vec3(0.5, 0.5, 0.0001)).z * 0.5;"
+            " color.b = shadow2DProj(shadowMap, vec4(1.0, 1.0, 1.9998, 2.0)).g * 0.5 + 0.125;")
+    text = front_scene(spot, "Transform { translation 0 0 3 children [\n", modify(
+        code, "uniform sampler2DShadow shadowMap;\n", "initializeOnly SFNode shadowMap USE Map"), "] }\n",
+        quad("Material { }"))
+    # before the square there is light, behind it none
+    suite.close("", suite.middle(text), (0.25, 0.5, 0.125, 1))
+
+
+@suite.case
 def parameters_called_texture():
     "plug functions and helpers with a sampler called texture"
     texture = "texture PixelTexture { repeatS FALSE repeatT FALSE image 2 1 3 0x336699 0xFF0000 effects %s }"
