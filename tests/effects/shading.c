@@ -28,9 +28,11 @@ static bool draw(plr_engine *engine, const shot *s, float color[4]) {
     if (drawn)
         memcpy(color, picture.pixels + 4 * (size_t)(SIZE * (SIZE / 2) + SIZE / 2),
                4 * sizeof *color);
-    for (size_t i = 0; i < plr_diags_count(diags); i++)
-        printf("# %u: %s\n", plr_diags_get(diags, i)->place.line, plr_diags_get(diags, i)->message);
-    drawn = drawn && plr_diags_count(diags) == 0;
+    for (size_t i = 0; i < plr_diags_count(diags); i++) {
+        const plr_diag *diag = plr_diags_get(diags, i);
+        printf("# %u: %s\n", diag->place.line, diag->message);
+        drawn = drawn && diag->code == PLR_CODE_DEPRECATED_PLUG;
+    }
     plr_picture_free(&picture);
     plr_view_destroy(&view);
     plr_scene_destroy(&scene);
