@@ -216,7 +216,8 @@ void plr_say_unplaced(plr_linking *l, const plr_unit *unit, plr_function *functi
                 "there is no plug \"%s\" in the %s stage; it exists in the %s stage", name,
                 plr_stage_text(unit->scope->stage), stage_list(l, stages ? stages : known));
     } else {
-        plr_say(l, PLR_CODE_UNKNOWN_PLUG, place, "there is no plug \"%s\"%s", name,
-                list_nearest(l, unit, function->plug));
+        const char *near = list_nearest(l, unit, function->plug);
+        if (*near || !l->desc->own_base)
+            plr_say(l, PLR_CODE_UNKNOWN_PLUG, place, "there is no plug \"%s\"%s", name, near);
     }
 }

@@ -126,6 +126,9 @@ typedef struct plr_link_desc {
      * offered as the nearest name. */
     const char *const *known_targets;
     size_t known_target_count;
+    /* The base is an author's own shader: of plugs that it lacks nothing is said, unless one of
+     * nearly that name is known. */
+    bool own_base;
     plr_target_glsl glsl;
     bool keep_all;      /* leave nothing out */
     size_t max_text;    /* bytes of input at most; 0: 64 MiB */

@@ -318,6 +318,11 @@ void main() {
         result = suite.render(front_scene(content), "--probe", "7,8")
         suite.close(f"{head!r}", [float(w) for w in result.output.split()], (0.4375, 0.4375, 0.5, 1))
         suite.equal("without a word", result.messages(), [])
+    for name, told in (("of_another_shape", []), ("texture_aply", ["unknown-plug"])):
+        content = quad("Material { }", apply + effect(f"void PLUG_{name}(inout vec4 c) {{ c.r = 0.0; }}"),
+                       shader(SHADER_VERTEX, fragment % ""))
+        result = suite.render(front_scene(content), "--probe", "7,8")
+        suite.equal(f"{name}: what is said of it", [m[5] for m in result.messages()], told)
 
 
 @suite.case
