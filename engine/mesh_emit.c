@@ -93,16 +93,19 @@ static void make_indices(vertices *v, plr_mesh *mesh) {
     }
 }
 
-static float *gather(plr_polygons *p, const vertices *v, const float *values, size_t size,
-                     size_t member) {
+static const float white[4] = {1, 1, 1, 1}, origin[4] = {0, 0, 0, 1};
+
+/* One kind of value of all vertices; where a vertex has none, what stands in. */
+static float *gather(plr_polygons *p, const vertices *v, const float *values, uint32_t count,
+                     size_t size, size_t member, const float *stand_in) {
     if (!values)
         return NULL;
     float *gathered = plr_mesh_array(p->arena, v->count, size * sizeof *gathered);
     for (size_t i = 0; i < v->count; i++) {
         uint32_t index;
         memcpy(&index, (const char *)&v->items[i] + member, sizeof index);
-        if (index != PLR_MESH_NONE)
-            memcpy(gathered + i * size, values + index * size, size * sizeof *gathered);
+        memcpy(gathered + i * size, index < count ? values + index * size : stand_in,
+               size * sizeof *gathered);
     }
     return gathered;
 }
@@ -133,8 +136,8 @@ static void fill_tex_coords(plr_polygons *p, const vertices *v, plr_mesh *mesh) 
     mesh->tex_coords_given = p->tex_given;
     for (unsigned unit = 0; unit < PLR_MESH_TEX_UNITS; unit++)
         if (p->tex_coords[unit])
-            mesh->tex_coords[unit] =
-                gather(p, v, p->tex_coords[unit], 4, offsetof(plr_corner, tex));
+            mesh->tex_coords[unit] = gather(p, v, p->tex_coords[unit], p->tex_counts[unit], 4,
+                                            offsetof(plr_corner, tex), origin);
         else if (unit < p->tex_units || unit == 0)
             mesh->tex_coords[unit] = default_tex_coords(p, mesh);
 }
@@ -170,11 +173,12 @@ static void fill_line_distances(plr_polygons *p, plr_mesh *mesh) {
 
 static void fill_mesh(plr_polygons *p, const vertices *v, plr_mesh *mesh) {
     mesh->vertex_count = v->count;
-    mesh->positions = gather(p, v, p->points, 3, offsetof(plr_corner, coord));
-    mesh->normals = gather(p, v, p->normals, 3, offsetof(plr_corner, normal));
+    mesh->positions =
+        gather(p, v, p->points, p->point_count, 3, offsetof(plr_corner, coord), origin);
+    mesh->normals = gather(p, v, p->normals, UINT32_MAX, 3, offsetof(plr_corner, normal), origin);
     if (mesh->normals)
         normalize(mesh->normals, v->count);
-    mesh->colors = gather(p, v, p->colors, 4, offsetof(plr_corner, color));
+    mesh->colors = gather(p, v, p->colors, UINT32_MAX, 4, offsetof(plr_corner, color), white);
     plr_mesh_find_bounds(mesh);
     if (p->kind == PLR_MESH_TRIANGLES)
         fill_tex_coords(p, v, mesh);

@@ -338,6 +338,7 @@ bool plr_make_extrusion(plr_maker *maker) {
     polygons.points = e.points;
     polygons.point_count = e.point_count;
     polygons.tex_coords[0] = e.tex;
+    polygons.tex_counts[0] = e.point_count;
     plr_polygons_make_normals(&polygons, plr_node_number(maker->node, "creaseAngle"),
                               maker->mesh->clockwise);
     return plr_polygons_emit(&polygons, maker->mesh);

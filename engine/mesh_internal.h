@@ -32,6 +32,7 @@ typedef struct plr_polygons {
     const float *colors;  /* 4 each */
     /* 4 each; NULL: the default mapping by bounding box. Units beyond have none of their own. */
     const float *tex_coords[PLR_MESH_TEX_UNITS];
+    uint32_t tex_counts[PLR_MESH_TEX_UNITS]; /* values of each */
     unsigned tex_units;
     bool tex_given; /* there is a texCoord node */
     uint32_t point_count;

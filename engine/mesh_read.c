@@ -76,7 +76,7 @@ enum {
 typedef struct index_fault {
     const plr_field *field;
     int64_t first; /* the first bad index */
-    size_t range, faces;
+    size_t range, times;
 } index_fault;
 
 typedef struct reader {
@@ -91,7 +91,7 @@ typedef struct reader {
 } reader;
 
 static bool complain(index_fault *fault, const plr_field *field, int64_t index, size_t range) {
-    if (!fault->faces++) {
+    if (!fault->times++) {
         fault->field = field;
         fault->first = index;
         fault->range = range;
@@ -103,21 +103,21 @@ static bool is_finite(const float *point) {
     return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]);
 }
 
-/* The value that a corner takes; false if there is none. */
-static bool bind(reader *r, int kind, size_t at, uint32_t coord, uint32_t *value) {
+/* The value that a corner takes; without one the corner is drawn all the same. */
+static void bind(reader *r, int kind, size_t at, uint32_t coord, uint32_t *value) {
     const binding *b = &r->bindings[kind];
     *value = PLR_MESH_NONE;
     if (!b->count)
-        return true;
+        return;
     int64_t index = b->per_face ? (int64_t)r->face_number : (int64_t)coord;
     if (b->index) {
         size_t position = b->per_face ? r->face_number : at;
         index = position < b->index->count ? b->index->value.ints[position] : -1;
     }
     if (index < 0 || index >= (int64_t)b->count)
-        return complain(&r->binding_faults[kind], b->index, index, b->count);
-    *value = (uint32_t)index;
-    return true;
+        complain(&r->binding_faults[kind], b->index, index, b->count);
+    if (index >= 0 && index < (int64_t)(kind == TEX ? PLR_MESH_NONE : b->count))
+        *value = (uint32_t)index; /* units of texture coordinates may differ in length */
 }
 
 /* The corner at place `at` of the index list. */
@@ -128,9 +128,10 @@ static bool make_corner(reader *r, size_t at, plr_corner *corner) {
     corner->coord = (uint32_t)index;
     if (!is_finite(r->polygons->points + 3 * (size_t)index))
         return complain(&r->coord_fault, r->index, index, 0);
-    return bind(r, NORMAL, at, corner->coord, &corner->normal) &&
-           bind(r, COLOR, at, corner->coord, &corner->color) &&
-           bind(r, TEX, at, corner->coord, &corner->tex);
+    bind(r, NORMAL, at, corner->coord, &corner->normal);
+    bind(r, COLOR, at, corner->coord, &corner->color);
+    bind(r, TEX, at, corner->coord, &corner->tex);
+    return true;
 }
 
 /* A face whose corners stand at `places`, or at first, first + 1, ...; left out where one is
@@ -206,27 +207,31 @@ static void add_runs_by_counts(reader *r, const plr_field *counts) {
     }
 }
 
-static void tell(reader *r, const index_fault *fault, const plr_node *property, const char *what) {
-    if (!fault->faces)
+static void tell(reader *r, const index_fault *fault, const plr_node *property, const char *what,
+                 const char *outcome) {
+    if (!fault->times)
         return;
     plr_place place = fault->field ? fault->field->place
                                    : plr_node_place(property ? property : r->polygons->node);
     if (!fault->range)
         plr_diags_add(r->polygons->diags, PLR_CODE_BAD_GEOMETRY, place,
-                      "%s %lld is not finite; %zu faces are left out", what,
-                      (long long)fault->first, fault->faces);
+                      "%s %lld is not finite; %zu %s", what, (long long)fault->first, fault->times,
+                      outcome);
     else
         plr_diags_add(r->polygons->diags, PLR_CODE_BAD_GEOMETRY, place,
-                      "there is no %s %lld, only 0 to %zu; %zu faces are left out", what,
-                      (long long)fault->first, fault->range - 1, fault->faces);
+                      "there is no %s %lld, only 0 to %zu; %zu %s", what, (long long)fault->first,
+                      fault->range - 1, fault->times, outcome);
 }
 
 static void tell_all(reader *r) {
     static const char *const names[BINDINGS] = {"normal", "colour", "texture coordinate"};
+    static const char *const outcomes[BINDINGS] = {
+        "corners lack one; normals are made from the faces", "corners are white",
+        "corners have none"};
     const plr_node *coord = plr_node_child(r->polygons->node, "coord");
-    tell(r, &r->coord_fault, coord, "point");
+    tell(r, &r->coord_fault, coord, "point", "faces are left out");
     for (int i = 0; i < BINDINGS; i++)
-        tell(r, &r->binding_faults[i], r->bindings[i].property, names[i]);
+        tell(r, &r->binding_faults[i], r->bindings[i].property, names[i], outcomes[i]);
     if (r->short_faces)
         plr_diags_add_as(r->polygons->diags, PLR_WARNING, PLR_CODE_BAD_GEOMETRY,
                          r->index ? r->index->place : plr_node_place(r->polygons->node),
@@ -274,6 +279,7 @@ static void map_grid(reader *r, size_t columns, size_t rows) {
         if (!tex)
             tex = plr_arena_array(p->arena, columns * rows, 4 * sizeof *tex);
         p->tex_coords[unit] = tex;
+        p->tex_counts[unit] = (uint32_t)(columns * rows);
     }
     for (size_t i = 0; tex && i < columns * rows; i++) {
         tex[4 * i] = (float)((double)(i % columns) / (double)(columns - 1));
@@ -367,6 +373,8 @@ bool plr_polygons_read(plr_polygons *p) {
     if (!(grid ? read_grid(&r) : read_coordinates(&r)))
         return false;
     tell_all(&r);
+    if (r.binding_faults[NORMAL].times)
+        p->normals = NULL;
     if (p->faces.count && !p->normals && p->kind == PLR_MESH_TRIANGLES)
         plr_polygons_make_normals(p, crease_angle(p->node), !bool_field(p->node, "ccw", true));
     return p->faces.count > 0;

@@ -272,5 +272,6 @@ bool plr_make_text(plr_maker *maker) {
     polygons.points = t.points.items;
     polygons.point_count = (uint32_t)(t.points.count / 3);
     polygons.tex_coords[0] = t.tex.items;
+    polygons.tex_counts[0] = polygons.point_count;
     return polygons.faces.count && plr_polygons_emit(&polygons, maker->mesh);
 }

@@ -50,12 +50,12 @@ uint32_t plr_polygons_tex_coords(plr_polygons *polygons, const plr_node *tex_coo
     polygons->tex_given = true;
     uint32_t least = 0;
     for (size_t i = 0; i < count && i < PLR_MESH_TEX_UNITS; i++) {
-        uint32_t values;
         const plr_node *node = units ? units->value.nodes[i] : tex_coord;
-        polygons->tex_coords[i] = unit_coords(polygons, node, &values);
+        uint32_t *values = &polygons->tex_counts[i];
+        polygons->tex_coords[i] = unit_coords(polygons, node, values);
         polygons->tex_units = (unsigned)i + 1;
-        if (values && (!least || values < least))
-            least = values;
+        if (*values && (!least || *values < least))
+            least = *values;
     }
     return least;
 }

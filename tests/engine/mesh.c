@@ -317,7 +317,8 @@ static void test_texture_units(void) {
     f = build("TriangleSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } texCoord "
               "MultiTextureCoordinate { texCoord [ TextureCoordinate { point [ 1 0, 2 0, 3 0 ] } "
               "TextureCoordinate { point [ 1 0 ] } ] } }");
-    CHECK(!f.built);
+    CHECK(f.built && f.mesh.tex_coords[0][8] == 3 && f.mesh.tex_coords[1][0] == 1);
+    CHECK(f.built && f.mesh.tex_coords[1][8] == 0 && f.mesh.tex_coords[1][11] == 1);
     CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
     finish(&f);
 }
@@ -566,7 +567,13 @@ static void test_hostile(void) {
     f = build(
         "IndexedFaceSet { coordIndex [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } "
         "color Color { color [ 1 0 0 ] } }");
-    CHECK(!f.built); /* too few colours */
+    CHECK(f.built && f.mesh.colors[1] == 0 && f.mesh.colors[5] == 1); /* too few: white */
+    CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
+    finish(&f);
+    f = build(
+        "IndexedFaceSet { coordIndex [ 0 1 2 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } "
+        "normal Normal { vector [ 1 0 0, 1 0 0 ] } }");
+    CHECK(f.built && f.mesh.normals[2] == 1); /* too few: the face's own */
     CHECK_INT(count_code(&f, PLR_CODE_BAD_GEOMETRY), 1);
     finish(&f);
     f = build("IndexedFaceSet { coordIndex [ -1 -1 0 1 -1 0 1 2 -1 -1 ] coord Coordinate { point [ "
