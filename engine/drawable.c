@@ -1,5 +1,5 @@
 /* What a view draws, thing by thing, for listings. */
-#include "engine/view.h"
+#include "engine/targets.h"
 
 typedef struct found {
     plr_drawable drawable;
@@ -7,38 +7,68 @@ typedef struct found {
     size_t volume; /* PLR_NO_EFFECT: no volume */
 } found;
 
-static plr_pass *cast_of(const plr_view *view, size_t volume) {
-    for (size_t i = 0; i < view->volumes.cast_count; i++)
-        for (size_t m = 0; m < view->volumes.casts[i].count; m++)
-            if (view->volumes.casts[i].members[m] == volume)
-                return &view->volumes.casts[i].pass;
+static plr_pass *cast_of(const plr_world *world, size_t volume) {
+    for (size_t i = 0; i < world->volumes.cast_count; i++)
+        for (size_t m = 0; m < world->volumes.casts[i].count; m++)
+            if (world->volumes.casts[i].members[m] == volume)
+                return &world->volumes.casts[i].pass;
     return NULL;
 }
 
+static size_t count_things(const plr_world *world) {
+    return world->model_count + world->volumes.count + (world->background.pass.built != NULL);
+}
+
 /* Shapes, then volumes, then the background. */
-static bool find(const plr_view *view, size_t index, found *out) {
+static void take(const plr_world *world, size_t index, found *out) {
     *out = (found){.volume = PLR_NO_EFFECT};
-    if (index < view->model_count) {
-        plr_model *model = view->models[index];
+    if (index < world->model_count) {
+        plr_model *model = world->models[index];
         out->drawable = (plr_drawable){.kind = "surface", .node = model->node};
         out->pass = &model->pass;
-    } else if ((index -= view->model_count) < view->volumes.count) {
-        out->drawable = (plr_drawable){.kind = "volume", .node = view->volumes.volumes[index].node};
+    } else if ((index -= world->model_count) < world->volumes.count) {
+        out->drawable =
+            (plr_drawable){.kind = "volume", .node = world->volumes.volumes[index].node};
         out->volume = index;
-        out->pass = cast_of(view, index);
-    } else if (index == view->volumes.count && view->background.pass.built) {
-        out->drawable = (plr_drawable){.kind = "background", .node = view->background.node};
-        out->pass = (plr_pass *)&view->background.pass;
+        out->pass = cast_of(world, index);
     } else {
-        return false;
+        out->drawable = (plr_drawable){.kind = "background", .node = world->background.node};
+        out->pass = (plr_pass *)&world->background.pass;
     }
     if (out->pass && out->pass->built)
         out->drawable.program = &out->pass->built->info;
-    return true;
+}
+
+/* The scene itself, then the worlds of textures; NULL beyond the last. */
+static const plr_world *world_at(const plr_view *view, size_t index) {
+    if (index == 0)
+        return &view->world;
+    for (size_t i = 0; i < view->targets.count; i++)
+        if (view->targets.items[i]->own && --index == 0)
+            return view->targets.items[i]->own;
+    return NULL;
+}
+
+static bool find(const plr_view *view, size_t index, found *out) {
+    const plr_world *world;
+    *out = (found){.volume = PLR_NO_EFFECT};
+    for (size_t i = 0; (world = world_at(view, i)); i++) {
+        size_t count = count_things(world);
+        if (index < count) {
+            take(world, index, out);
+            return true;
+        }
+        index -= count;
+    }
+    return false;
 }
 
 size_t plr_view_drawable_count(const plr_view *view) {
-    return view->model_count + view->volumes.count + (view->background.pass.built != NULL);
+    const plr_world *world;
+    size_t count = 0;
+    for (size_t i = 0; (world = world_at(view, i)); i++)
+        count += count_things(world);
+    return count;
 }
 
 bool plr_view_drawable(const plr_view *view, size_t index, plr_drawable *drawable) {

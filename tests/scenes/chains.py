@@ -116,6 +116,18 @@ def geometry_stage():
 
 
 @suite.case
+def worlds_of_textures():
+    "what a RenderedTexture shows is listed as well"
+    inner = quad("UnlitMaterial { }", effect("void PLUG_fragment_modify(inout vec4 c) { c.g = 0.5; }",
+                                             head="DEF Within")).replace("Shape", "DEF Inner Shape")
+    text = scene(quad("UnlitMaterial { }", effect("void PLUG_fragment_modify(inout vec4 c) { c.r = 0.5; }",
+                                                  head="DEF Without"),
+                      "texture RenderedTexture { dimensions [16 16 3] scene Group { children [\n%s] } }" % inner))
+    found = chains(text)
+    suite.equal("", [[name for _, _, name, _ in author(calls)] for _, calls in found], [["Without"], ["Within"]])
+
+
+@suite.case
 def left_out():
     "what is left out has no place in the chain; what is replaced neither"
     text = scene(quad("UnlitMaterial { }",
