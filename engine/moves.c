@@ -2,7 +2,7 @@
  * it goes on with new places. */
 #include "engine/changes.h"
 
-#include <string.h>
+#include "engine/targets.h"
 
 /* ---- Is it the same? ---- */
 
@@ -133,11 +133,20 @@ static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix 
 }
 
 /* Textures that show worlds of their own, or the scene from elsewhere, hold places, too. */
+static bool targets_stay(const plr_view *view) {
+    for (size_t i = 0; i < view->targets.count; i++) {
+        const plr_target *target = view->targets.items[i];
+        if (target->own || target->background || target->viewpoint)
+            return false;
+    }
+    return true;
+}
+
 bool plr_view_move(plr_view *view, const plr_matrix *eye_to_world) {
     jmp_buf out_of_memory;
     plr_arena arena;
     volatile bool moved = false;
-    if (view->targets.count)
+    if (!targets_stay(view))
         return false;
     plr_arena_init(&arena, NULL, &out_of_memory);
     if (setjmp(out_of_memory) == 0)

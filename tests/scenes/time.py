@@ -68,10 +68,12 @@ def everything_moves():
         ("G", "DirectionalLight { direction -.2 0 -1 color 0 1 0 } "
               "ClipPlane { plane 1 .2 0 .3 } LocalFog { color 0 0 1 visibilityRange 9 } "
               + quad("Material { diffuseColor 1 1 1 }", geometry="Sphere { radius .4 }")),
+        ("K", "SpotLight { location 1 2 3 direction -1 -2 -3 cutOffAngle .5 radius 99 shadows TRUE "
+              "shadowMapSize 64 global TRUE color 1 0 0 }"),
         ("B", "Background { skyColor [ 0 0 1, 1 1 0 ] skyAngle 1.5 }"),
         ("D", volume(constant(40, (2, 2, 2)))))
     text = scene(CLOCK, *(moving.format(name, content) for name, content in parts),
-                 *(interpolated("Position", "0 1", f"0 0 0 .{i + 1} .{7 - i} -.{i}", f"{name}.translation",
+                 *(interpolated("Position", "0 1", f"0 0 0 .{i + 1} .{8 - i} -.{i}", f"{name}.translation",
                                 "P" + name) for i, (name, _) in enumerate(parts)),
                  *(interpolated("Orientation", "0 1", f"0 1 .{i} 0 0 1 .{i} .{i + 1}",
                                 f"{name}.rotation", "O" + name) for i, (name, _) in enumerate(parts)))
