@@ -252,13 +252,14 @@ static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
 static const plr_define irradiance[] = {{"HAS_diffuseTexture", "1"},
                                         {"diffuseTexture_DIMENSIONS", "6"}};
 static const plr_define first_channel[] = {{"CHANNEL", "0"}};
-static const plr_define shifted[] = {
-    {"CHANNEL", "0"},   {"DIMENSIONS", "2"}, {"PROJECTIVE", "0"},
-    {"REFLECTED", "0"}, {"SHIFTED", "1"},    {"DATA", "1"}};
+static const plr_define shifted[] = {{"CHANNEL", "0"},   {"DIMENSIONS", "2"}, {"PROJECTIVE", "0"},
+                                     {"REFLECTED", "0"}, {"SHIFTED", "1"},    {"DATA", "1"}};
 static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
     {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}};
+static const plr_define top_image[] = {{"FACE", "4"}, {"HAS_IMAGE", "1"}};
+static const plr_define left_shader[] = {{"FACE", "2"}, {"HAS_IMAGE", "0"}};
 static const plr_define with_ground[] = {{"HAS_GROUND", "1"}};
 static const plr_define no_ground[] = {{"HAS_GROUND", "0"}};
 
@@ -487,6 +488,45 @@ static const recipe recipes[] = {
       {.path = "volume/ShadedVolumeStyle", DEFINES(flat_style)},
       {.path = "volume/Composite"}},
      DEFINES(two_volumes)},
+    {"shadows of a map and of a cube",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "shadows/ShadowMap", .attached = 2},
+      {.path = "lights/PointLight"},
+      {.path = "shadows/ShadowCube", .attached = 4}},
+     DEFINES(plain),
+     .present = "sampler2DShadow samplerCubeShadow shadowIntensity"},
+    {"shadow in a volume",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
+      {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style)},
+      {.path = "volume/Composite"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "shadows/ShadowMap", .attached = 5}},
+     DEFINES(one_volume),
+     .present = "sampler2DShadow"},
+    {"depths of a shadow map",
+     "shadows/depth",
+     {{.path = NULL}},
+     DEFINES(plain),
+     .absent = "FragColor"},
+    {"pictures around the viewer",
+     "background/background",
+     {{.path = "background/Background", DEFINES(no_ground)},
+      {.path = "background/BackgroundFace", DEFINES(top_image)},
+      {.path = "background/BackgroundFace", DEFINES(left_shader)}},
+     NULL,
+     0,
+     .present = "textureGrad",
+     .absent = "groundColor"},
+    {"one picture",
+     "background/background",
+     {{.path = "background/ImageBackground", DEFINES(top_image)}},
+     NULL,
+     0,
+     .present = "texCoords"},
     {"sky",
      "background/background",
      {{.path = "background/Background", DEFINES(no_ground)}},
