@@ -17,6 +17,24 @@ static const char scene_text[] =
     "255 255 ] } renderStyle OpacityMapVolumeStyle { transferFunction PixelTexture { image 1 1 4 "
     "0xff000080 } } }\n";
 
+/* A screen before all that the host drew; what it shows is drawn into a texture before, and a
+ * square that is out of sight keeps the light, which falls on it at 45 degrees, from its left
+ * quarter.
+ */
+static const char targets_text[] =
+    "#X3D V4.0 utf8\nPROFILE Immersive\nNavigationInfo { headlight FALSE }\n"
+    "DirectionalLight { direction 1 0 -1 intensity 0.5 shadows TRUE }\n"
+    "Shape { geometry IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point [ -1 -1 "
+    "0.5, "
+    "1 -1 0.5, 1 1 0.5, -1 1 0.5 ] } } appearance Appearance { material Material { diffuseColor 1 "
+    "1 1 "
+    "ambientIntensity 0 } texture RenderedTexture { update \"ALWAYS\" dimensions [ 8 8 4 ] scene "
+    "Group "
+    "{ children Background { skyColor 0 1 0 } } } } }\n"
+    "Shape { geometry IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point [ -5 -1 "
+    "4.5, "
+    "-4.5 -1 4.5, -4.5 1 4.5, -5 1 4.5 ] } } }\n";
+
 /* The camera stands at z = 2. */
 static const double camera[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1};
 /* Parallel, distances -4 to 4 from the camera: z = 0, at distance 2, is 0.75 in the depth buffer.
@@ -25,7 +43,7 @@ static const double projection[16] = {.5, 0, 0, 0, 0, .5, 0, 0, 0, 0, -.25, 0, 0
 
 typedef struct host {
     plr_gl gl;
-    GLuint framebuffer, color, depth, texture;
+    GLuint framebuffer, color, depth, texture, cube;
 } host;
 
 static void make_framebuffer(host *h) {
@@ -58,6 +76,7 @@ static void draw_host(host *h) {
 static void make_odd_state(host *h) {
     const plr_gl *gl = &h->gl;
     gl->GenTextures(1, &h->texture);
+    gl->GenTextures(1, &h->cube);
     gl->ActiveTexture(GL_TEXTURE0 + 3);
     gl->BindTexture(GL_TEXTURE_2D, h->texture);
     gl->Enable(GL_BLEND);
@@ -66,17 +85,18 @@ static void make_odd_state(host *h) {
     gl->CullFace(GL_FRONT);
     gl->FrontFace(GL_CW);
     gl->DepthFunc(GL_ALWAYS);
+    gl->PolygonOffset(3, 5);
+    gl->BindTexture(GL_TEXTURE_CUBE_MAP, h->cube);
     gl->ClearColor(0.25f, 0.5f, 0.75f, 1);
     gl->Viewport(LEFT, LEFT, WIDTH, WIDTH);
 }
 
-static plr_view *make_view(const host *h, plr_engine **engine, plr_scene **scene,
+static plr_view *make_view(const char *text, plr_engine **engine, plr_scene **scene,
                            plr_context *context, plr_diags *diags) {
-    (void)h;
     plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address, .user = context};
     plr_view_desc view = {.host_depths = true, .step = 0.1};
     *engine = plr_engine_create(&desc, diags);
-    *scene = plr_scene_parse(scene_text, strlen(scene_text), "embed.x3dv", NULL, diags);
+    *scene = plr_scene_parse(text, strlen(text), "embed.x3dv", NULL, diags);
     return plr_view_create(*engine, *scene, &view, diags);
 }
 
@@ -87,13 +107,25 @@ static void check_pixel(const plr_gl *gl, int x, int y, const double expected[4]
         CHECK_NEAR(pixel[i], expected[i] * 255, 1.5);
 }
 
-static void run(plr_context *context) {
+/* The volume, and what is beside it; rays end at what the host drew. */
+static void check_volume(const plr_gl *gl) {
+    const double alpha = 128.0 / 255, far = 1 - pow(1 - alpha, 2), half = alpha;
+    check_pixel(gl, 18, 16, (double[]){far, 0, 1 - far, 1});
+    check_pixel(gl, 14, 16, (double[]){half, 0, 1 - half, 1});
+}
+
+static void check_targets(const plr_gl *gl) {
+    check_pixel(gl, 15, 16, (double[]){0, 0.5 * sqrt(0.5), 0, 1});
+    check_pixel(gl, 12, 16, (double[]){0, 0, 0, 1});
+}
+
+static void run(plr_context *context, const char *text, void (*check)(const plr_gl *)) {
     host h = {.texture = 0};
     CHECK(plr_gl_load(&h.gl, plr_context_get_proc_address, context) == NULL);
     plr_diags *diags = plr_diags_create(NULL);
     plr_engine *engine;
     plr_scene *scene;
-    plr_view *view = make_view(&h, &engine, &scene, context, diags);
+    plr_view *view = make_view(text, &engine, &scene, context, diags);
     CHECK(view != NULL);
     make_framebuffer(&h);
     draw_host(&h);
@@ -104,11 +136,9 @@ static void run(plr_context *context) {
     plr_gl_state_save(&h.gl, &after);
     CHECK(memcmp(&before, &after, sizeof before) == 0);
     CHECK_INT(h.gl.GetError(), GL_NO_ERROR);
-    const double alpha = 128.0 / 255, far = 1 - pow(1 - alpha, 2), half = alpha;
     check_pixel(&h.gl, 2, 2, (double[]){0, 0, 1, 1});  /* beside the viewport */
-    check_pixel(&h.gl, 9, 16, (double[]){0, 0, 1, 1}); /* beside the volume */
-    check_pixel(&h.gl, 18, 16, (double[]){far, 0, 1 - far, 1});
-    check_pixel(&h.gl, 14, 16, (double[]){half, 0, 1 - half, 1}); /* ends at what the host drew */
+    check_pixel(&h.gl, 9, 16, (double[]){0, 0, 1, 1}); /* beside what is drawn */
+    check(&h.gl);
     CHECK_INT(plr_diags_count(diags), 0);
     plr_view_destroy(&view);
     plr_scene_destroy(&scene);
@@ -121,7 +151,11 @@ int main(void) {
     if (!context)
         TAP_SKIP("a host draws", "there is no GL");
     else
-        run(context);
+        run(context, scene_text, check_volume);
+    plr_context_destroy(&context);
+    context = plr_context_create(PLR_BACKEND_AUTO, NULL); /* a host without that one's odd state */
+    if (context)
+        run(context, targets_text, check_targets);
     plr_context_destroy(&context);
     return tap_done();
 }
