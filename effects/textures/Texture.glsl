@@ -4,7 +4,7 @@
  *   DIMENSIONS   of `self`: 2, 3, 6 (a cube); 0: ShaderTexture, whose effects alone make its colour
  *   PROJECTIVE   the coordinates have a fourth component other than 1
  *   REFLECTED    they are made here, for each fragment, by what is attached
- *   SHIFTED      texture_coord_shift may move them
+ *   SHIFTED      texture_coord_shift may move them; texture_color gets them moved
  *   DATA         no colour: neither gamma nor tone belongs to it
  *   STAGE        one of the textures of a MultiTexture
  *   VALUE        what this is attached to knows what to do with it
