@@ -148,6 +148,18 @@ static void v_node_to_eye(const context *c, float *out) {
         m = plr_matrix_multiply(&c->values->frame->view, &m);
     put(&m, out);
 }
+static void v_light_direction(const context *c, float *out) {
+    plr_light_direction(c->binding, &c->values->frame->view, out);
+}
+static void v_light_location(const context *c, float *out) {
+    plr_light_location(c->binding, &c->values->frame->view, out);
+}
+/* From lengths in eye space to the node's own; of a node that is scaled otherwise along each axis,
+ * their geometric mean. */
+static void v_length_to_node(const context *c, float *out) {
+    double scale = cbrt(fabs(plr_matrix_determinant3(&c->binding->to_world)));
+    out[0] = scale > 0 ? (float)(1 / scale) : 0;
+}
 static void v_eye_to_node(const context *c, float *out) {
     plr_matrix m = c->binding->to_world;
     if (!c->binding->in_eye_space)
@@ -249,6 +261,9 @@ static const struct known {
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
     {"eyeToProjector", OWNER_NODE, v_eye_to_projector},
     {"eyeToNode", OWNER_NODE, v_eye_to_node},
+    {"lengthToNode", OWNER_NODE, v_length_to_node},
+    {"light_direction_eye", OWNER_NODE, v_light_direction},
+    {"light_location_eye", OWNER_NODE, v_light_location},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
     {"dimensions", OWNER_VOLUME, v_dimensions},
     {"sampleDistance", OWNER_VOLUME, v_step},

@@ -116,11 +116,26 @@ const plr_light_value *plr_light_value_find(const plr_recipe *recipe, const char
     return NULL;
 }
 
-void plr_light_value_get(const plr_light_value *value, const plr_binding *light,
-                         const plr_matrix *world_to_eye, float out[4]) {
+static light_source source_of(const plr_binding *light, const plr_matrix *world_to_eye) {
     light_source source = {light->node, light->to_world};
     if (!light->in_eye_space)
         source.to_eye = plr_matrix_multiply(world_to_eye, &light->to_world);
+    return source;
+}
+
+void plr_light_value_get(const plr_light_value *value, const plr_binding *light,
+                         const plr_matrix *world_to_eye, float out[4]) {
+    light_source source = source_of(light, world_to_eye);
     memset(out, 0, 4 * sizeof *out);
     value->get(&source, out);
+}
+
+void plr_light_direction(const plr_binding *light, const plr_matrix *world_to_eye, float *out) {
+    light_source source = source_of(light, world_to_eye);
+    v_direction(&source, out);
+}
+
+void plr_light_location(const plr_binding *light, const plr_matrix *world_to_eye, float *out) {
+    light_source source = source_of(light, world_to_eye);
+    v_position(&source, out);
 }

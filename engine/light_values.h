@@ -15,4 +15,9 @@ const plr_light_value *plr_light_value_find(const plr_recipe *recipe, const char
 void plr_light_value_get(const plr_light_value *value, const plr_binding *light,
                          const plr_matrix *world_to_eye, float out[4]);
 
+/* What the lights' own effects know of them, in eye space: three numbers. A headlight is a
+ * DirectionalLight with the defaults. */
+void plr_light_direction(const plr_binding *light, const plr_matrix *world_to_eye, float *out);
+void plr_light_location(const plr_binding *light, const plr_matrix *world_to_eye, float *out);
+
 #endif

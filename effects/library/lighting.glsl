@@ -2,8 +2,7 @@
 
 /* The direction at length 1; what has no direction stays zero. */
 vec3 unit_or_zero(vec3 direction) {
-    float squared = dot(direction, direction);
-    return squared > 0.0 ? direction * inversesqrt(squared) : vec3(0.0);
+    return direction * inversesqrt(max(dot(direction, direction), 1e-37));
 }
 
 /* From a point in eye space to the viewer, length 1; in parallel projection the same for all. */
@@ -18,9 +17,8 @@ vec3 phong_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, v
     vec3 reflected = material.diffuse * max(dot(normal_eye, light_dir), 0.0);
     vec3 between = unit_or_zero(light_dir + direction_to_viewer(vertex_eye));
     float n_dot_h = dot(normal_eye, between);
-    if (n_dot_h > 0.0)
-        reflected += material.specular * pow(n_dot_h, material.shininess);
-    return reflected;
+    float shine = n_dot_h > 0.0 ? pow(n_dot_h, material.shininess) : 0.0;
+    return reflected + shine * material.specular;
 }
 
 /* What a light calls: how the material meets it. A material's effect that knows better has a function of
@@ -29,11 +27,9 @@ vec3 material_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye
     return phong_reflection(material, vertex_eye, normal_eye, light_dir);
 }
 
-/* 17.2.2: 1 / max(c1 + c2 d + c3 d^2, 1), and nothing beyond the radius; `to_light` is in the
- * light's own coordinates, where its radius and attenuation are given. */
-float light_attenuation(vec3 to_light, vec3 attenuation, float radius) {
-    float d = length(to_light);
-    if (d > radius)
-        return 0.0;
-    return 1.0 / max(attenuation.x + (attenuation.y + attenuation.z * d) * d, 1.0);
+/* 17.2.2: 1 / max(c1 + c2 d + c3 d^2, 1), and nothing beyond the radius; the distance d is in the
+ * light's own lengths, as its radius and attenuation are. */
+float light_attenuation(float d, vec3 attenuation, float radius) {
+    float weakening = max(attenuation.x + (attenuation.y + attenuation.z * d) * d, 1.0);
+    return d > radius ? 0.0 : 1.0 / weakening;
 }

@@ -1,19 +1,17 @@
-/* ISO/IEC 19775-1 V4 17.4, DirectionalLight, and 17.2.2. `nodeToEye` carries the light's own coordinates
- * to eye space. A zero normal gets ambient light only. What meets the light, and how, is the
+/* ISO/IEC 19775-1 V4 17.4, DirectionalLight, and 17.2.2. A zero normal gets ambient light only. What meets the light, and how, is the
  * material's: material_reflection. */
 
-uniform mat4 nodeToEye = mat4(1.0);
 uniform vec3 direction = vec3(0.0, 0.0, -1.0);
 uniform vec3 color = vec3(1.0);
 uniform float intensity = 1.0;
 uniform float ambientIntensity = 0.0;
 
-/* For effects on this light: where it shines, length 1. */
-vec3 light_direction_eye = normalize(mat3(nodeToEye) * direction);
+/* Also for effects on this light: where it shines, length 1. */
+uniform vec3 light_direction_eye = vec3(0.0, 0.0, -1.0);
 
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
-    vec3 light_dir = unit_or_zero(mat3(nodeToEye) * -direction);
+    vec3 light_dir = -light_direction_eye;
     float scale = 1.0;
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     vec3 light_color = color;

@@ -1,9 +1,8 @@
-/* ISO/IEC 19775-1 V4 17.4, SpotLight, and 17.2.2. `nodeToEye` carries the light's own coordinates
- * to eye space. A zero normal gets ambient light only. What meets the light, and how, is the
+/* ISO/IEC 19775-1 V4 17.4, SpotLight, and 17.2.2. Radius and attenuation are in the light's
+ * own lengths. A zero normal gets ambient light only. What meets the light, and how, is the
  * material's: material_reflection. */
 
-uniform mat4 nodeToEye = mat4(1.0);
-uniform mat4 eyeToNode = mat4(1.0);
+uniform float lengthToNode = 1.0;
 uniform vec3 location = vec3(0.0);
 uniform vec3 direction = vec3(0.0, 0.0, -1.0);
 uniform float beamWidth = 0.589049;
@@ -14,13 +13,13 @@ uniform float ambientIntensity = 0.0;
 uniform vec3 attenuation = vec3(1.0, 0.0, 0.0);
 uniform float radius = 100.0;
 
-/* For effects on this light: where it stands, and where it shines, length 1. */
-vec3 light_location_eye = (nodeToEye * vec4(location, 1.0)).xyz;
-vec3 light_direction_eye = normalize(mat3(nodeToEye) * direction);
+/* Also for effects on this light: where it stands, and where it shines, length 1. */
+uniform vec3 light_location_eye = vec3(0.0);
+uniform vec3 light_direction_eye = vec3(0.0, 0.0, -1.0);
 
 /* spot_i: 1 within the beam, 0 from the cut-off angle on, linear in the angle between them. */
 float spot_factor(vec3 from_light) {
-    vec3 axis = unit_or_zero(mat3(nodeToEye) * direction);
+    vec3 axis = light_direction_eye;
     /* not acos: it loses digits at small angles, and Mesa's is coarse everywhere */
     float angle = atan(length(cross(axis, from_light)), dot(axis, from_light));
     if (angle >= cutOffAngle)
@@ -32,12 +31,12 @@ float spot_factor(vec3 from_light) {
 
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
-    vec3 to_light = (nodeToEye * vec4(location, 1.0)).xyz - vertex_eye.xyz / vertex_eye.w;
+    vec3 to_light = light_location_eye - vertex_eye.xyz;
     vec3 light_dir = unit_or_zero(to_light);
     float scale = 1.0;
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     scale *= spot_factor(-light_dir) *
-             light_attenuation(mat3(eyeToNode) * to_light, attenuation, radius);
+             light_attenuation(lengthToNode * length(to_light), attenuation, radius);
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
     lit.rgb += scale * light_color *

@@ -26,7 +26,7 @@ void main() {
     /* PLUG: vertex_eye_space_extended (vertex_eye, normal_eye, normal_object) */
 
 #if READS(castle_vertex_eye)
-    castle_vertex_eye = vertex_eye;
+    castle_vertex_eye = vertex_eye / vertex_eye.w;
 #endif
 #if READS(castle_normal_eye)
     castle_normal_eye = normal_eye;
