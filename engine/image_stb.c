@@ -54,8 +54,8 @@ const char *plr_image_decode_stb(const char *data, size_t length, plr_image *ima
     void *samples =
         deep ? (void *)stbi_load_16_from_memory(bytes, size, &width, &height, &components, 0)
              : (void *)stbi_load_from_memory(bytes, size, &width, &height, &components, 0);
-    if (!samples)
-        return stbi_failure_reason();
+    if (!samples) /* the library's own reasons are one word each, and there may be none */
+        return "it is damaged";
     *image = (plr_image){.width = (uint32_t)width,
                          .height = (uint32_t)height,
                          .depth = 1,

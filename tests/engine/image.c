@@ -377,7 +377,23 @@ static void test_faults(void) {
     plr_diags_destroy(&diags);
 }
 
+/* The library gives no reason for this fault, if none came before: it must be a fault all the same.
+ */
+static void test_long_chunk(void) {
+    static file f;
+    static const char chunk[] = "\xff\0\0\0\x0bIDATx";
+    plr_image image;
+    plr_diags *diags = plr_diags_create(NULL);
+    unsigned char rows[8] = {0};
+    make_png(&f, 1, 1, 8, 0, rows, 2);
+    memcpy(f.data + 33, chunk, sizeof chunk - 1);
+    CHECK(!decode(&f, &image, diags) && !image.samples);
+    CHECK_STR(diag_text(diags, 0), "scene.x3d:9:12 error this image cannot be read: it is damaged");
+    plr_diags_destroy(&diags);
+}
+
 int main(void) {
+    test_long_chunk(); /* before all others */
     test_png();
     test_hdr();
     test_hdr_runs();
