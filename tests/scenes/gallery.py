@@ -11,6 +11,7 @@ driver, with other roundings in sin, pow and texture filters: edges of patterns 
 A missing light, effect or object changes far more than either bound."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,7 +19,7 @@ import tempfile
 
 from files import read_png
 
-SIZE = "120x90"
+WIDTH = 120  # of the pictures; their shape is 4:3 or what the scene's META "picture" says
 # Mean difference of a channel, and the part of pixels that differ by more than LARGE: of 255.
 BACKENDS = {"mean": 0.25, "large": 8, "part": 0.01}
 REFERENCES = {"mean": 2.0, "large": 32, "part": 0.03}
@@ -29,7 +30,7 @@ SCANS_OF = {  # examples that need a scan
     "maximum-projection.x3dv": ["ch2bet.nii.gz"],
     "transfer-function.x3d": ["brainsmall.den", "brainsmall.nhdr"],
 }
-LIBRARIES = {"library.x3dv"}  # draw nothing by themselves
+LIBRARIES = {"library.x3dv", "compositing/models/models.x3dv"}  # draw nothing by themselves
 SAME = [("hello-volume.x3dv", "hello-volume.x3d"), ("light-effect.x3dv", "light-effect.x3d")]
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -63,9 +64,16 @@ def scenes(folder):
     return sorted(found)
 
 
+def size_of(path):
+    with open(path, encoding="utf-8") as file:
+        found = re.search(r'META "picture" "(\d+)x(\d+)"', file.read())
+    width, height = map(int, found.groups()) if found else (4, 3)
+    return f"{WIDTH}x{round(WIDTH * height / width)}"
+
+
 def draw(program, path, backend, scans, target):
     """The picture's file, and what was said if it failed."""
-    words = [program, "render", path, "-o", target, "--size", SIZE, "--backend", backend, "--no-cache"]
+    words = [program, "render", path, "-o", target, "--size", size_of(path), "--backend", backend, "--no-cache"]
     if os.path.isdir(scans):
         words += ["--allow", scans]
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -132,7 +140,7 @@ def example(program, examples, scans, folder, path):
 def begins_with_comment(path):
     with open(path, encoding="utf-8") as file:
         lines = [line for line in file.read().split("\n") if line.strip()]
-    rest = [line for line in lines if not line.startswith(("#X3D", "#VRML", "PROFILE", "<?xml"))]
+    rest = [line for line in lines if not line.startswith(("#X3D", "#VRML", "PROFILE", "META", "<?xml"))]
     return rest[0].lstrip().startswith(("#", "<!--"))
 
 

@@ -116,4 +116,12 @@ broken = [f"{page.relative_to(root)}: {target}" for page in pages
           for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8"))
           if not (page.parent / target).exists()]
 check(not broken, "links between documents lead somewhere", *broken)
+# ---- the gallery
+
+gallery = subprocess.run([sys.executable, root / "tools" / "gallery", "--check"], capture_output=True, encoding="utf-8")
+check(gallery.returncode == 0, "docs/gallery.md fits the scenes and their effects", gallery.stderr)
+pictures = re.findall(r"^!\[.*\]\((.*)\)$", text_of("docs/gallery.md"), re.M)
+missing = [name for name in pictures if not (root / "docs" / name).exists()]
+check(len(pictures) >= 9 and not missing, "every figure of the gallery has its picture", *missing)
+
 done()
