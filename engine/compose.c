@@ -44,6 +44,7 @@ plr_program *plr_link_recipe(plr_composer *c, const plr_recipe *recipe, bool kee
                           .known_plug_count = known_count,
                           .known_targets = targets,
                           .known_target_count = target_count,
+                          .primitive = recipe->primitive,
                           .own_base = recipe->base_node != NULL,
                           .keep_all = keep_all};
     plr_phase start = plr_clock();

@@ -68,6 +68,7 @@ static void put_effect(writer *w, const plr_effect *effect, const plr_node *node
 static plr_memo_key make_key(plr_composer *c, const plr_recipe *recipe, const char *kind) {
     writer w = {.arena = c->kitchen->arena};
     put_text(&w, kind);
+    put_text(&w, recipe->primitive);
     put(&w, &recipe->base_node, sizeof recipe->base_node);
     put_sources(&w, recipe->base.items, recipe->base.count);
     put_defines(&w, recipe->defines.items, recipe->defines.count);

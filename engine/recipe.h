@@ -33,7 +33,8 @@ typedef struct plr_recipe {
     struct {
         plr_define *items;
         size_t count, capacity;
-    } defines; /* for all units */
+    } defines;             /* for all units */
+    const char *primitive; /* what it draws: see plr_link_desc; or NULL */
     plr_sources base;
     plr_node
         *base_node; /* an author's complete shader: its fields give the base's uniforms; or NULL */

@@ -37,8 +37,13 @@ static void define_surface(plr_shape *shape) {
                    {"HAS_NORMALS", model->mesh.normals != NULL},
                    {"TWO_SIDED", model->mesh.two_sided},
                    {"OPAQUE", !model->blends}};
+    static const char *const primitives[] = {[PLR_MESH_TRIANGLES] = "triangles",
+                                             [PLR_MESH_LINES] = "lines",
+                                             [PLR_MESH_POINTS] = "points"};
     for (size_t i = 0; i < sizeof defines / sizeof *defines; i++)
         plr_recipe_define(&shape->view->kitchen, shape->recipe, defines[i].name, defines[i].value);
+    if (model->mesh.index_count)
+        shape->recipe->primitive = primitives[model->mesh.kind];
 }
 
 /* Most local first: of lights, of textures, of the shape, of the groups from inner to outer. */

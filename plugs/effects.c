@@ -1,6 +1,8 @@
 /* Takes in the base, the library and one effect after the other; leaves the faulty ones out. */
 #include "plugs/link.h"
 
+#include <string.h>
+
 static void say_faults(plr_linking *l, const plr_unit *unit, const plr_fault *faults,
                        size_t count) {
     for (size_t i = 0; i < count; i++)
@@ -54,11 +56,48 @@ static bool check_effect(plr_linking *l, uint32_t e) {
     return true;
 }
 
+/* Whether the effect brings main() to the geometry stage. */
+static bool has_main(const plr_linking *l, uint32_t e) {
+    uint32_t gid = plr_gid_find(l, "main", 4);
+    const plr_binding *entry =
+        gid == PLR_NONE ? NULL : plr_binding_find(l, plr_scope_of(l, PLR_GEOMETRY, e), gid);
+    return entry && entry->function;
+}
+
+void plr_leave_out(plr_linking *l, uint32_t effect, const plr_message *message) {
+    plr_unfit *unfit = PLR_NEW(l->arena, plr_unfit);
+    if (message) {
+        unfit->messages = PLR_NEW(l->arena, plr_message);
+        *unfit->messages = *message;
+        unfit->count = 1;
+    }
+    l->unfit[effect] = unfit;
+    l->again = true;
+}
+
+void plr_keep_faults(plr_linking *l, plr_stage stage) {
+    for (uint32_t e = 0; e < l->effect_count; e++) {
+        size_t count = l->said_end[e] - l->said[e];
+        if (!l->faulty[e] || l->unfit[e] || !count || !plr_scope_of(l, stage, e)->unit_count)
+            continue;
+        plr_unfit *unfit = PLR_NEW(l->arena, plr_unfit);
+        unfit->messages = PLR_NEW_ARRAY(l->arena, count, plr_message);
+        unfit->count = count;
+        for (size_t i = 0; i < count; i++) {
+            unfit->messages[i] = l->messages.items[l->said[e] + i];
+            const char *text = unfit->messages[i].text;
+            unfit->messages[i].text = plr_arena_copy(l->arena, text, strlen(text));
+        }
+        l->unfit[e] = unfit;
+    }
+}
+
 static void add_effect(plr_linking *l, uint32_t e) {
     bool good = check_effect(l, e);
-    const plr_message *unfit = l->unfit[e];
-    if (unfit && unfit->text) {
-        *PLR_PUSH(l->pass, &l->messages) = *unfit;
+    const plr_unfit *unfit = l->unfit[e];
+    if (unfit && unfit->count) {
+        for (size_t i = 0; i < unfit->count; i++)
+            *PLR_PUSH(l->pass, &l->messages) = unfit->messages[i];
         l->faulty[e] = true;
         plr_note_lost(l, e);
         return;
@@ -82,6 +121,8 @@ static void add_effect(plr_linking *l, uint32_t e) {
         good = plr_place_functions(l, e);
     for (unsigned s = 0; s < PLR_STAGE_COUNT && good; s++)
         good &= plr_define_names(l, plr_scope_of(l, (plr_stage)s, e));
+    if (good && has_main(l, e))
+        good = plr_takes_primitive(l, plr_scope_of(l, PLR_GEOMETRY, e));
     if (!good) {
         l->faulty[e] = true;
         plr_note_lost(l, e);
@@ -90,10 +131,7 @@ static void add_effect(plr_linking *l, uint32_t e) {
     for (unsigned s = 0; s < PLR_STAGE_COUNT; s++)
         plr_name_functions(l, plr_scope_of(l, (plr_stage)s, e));
     plr_commit_calls(l);
-    uint32_t gid = plr_gid_find(l, "main", 4);
-    const plr_scope *geometry = plr_scope_of(l, PLR_GEOMETRY, e);
-    const plr_binding *entry = gid == PLR_NONE ? NULL : plr_binding_find(l, geometry, gid);
-    if (entry && entry->function)
+    if (has_main(l, e))
         l->main_effect = e;
 }
 
@@ -133,15 +171,20 @@ void plr_add_effects(plr_linking *l) {
         take_text(l, library);
         plr_define_names(l, library);
         good &= plr_define_names(l, base);
+        if (s == PLR_GEOMETRY && plr_entry(l, PLR_GEOMETRY))
+            good &= plr_takes_primitive(l, base);
         l->base_fault |= !good;
         for (uint32_t u = 0; u < base->unit_count && good; u++)
             plr_add_sockets(l, &base->units[u]);
     }
     for (uint32_t e = 0; e < l->effect_count && !l->base_fault; e++)
-        if (l->desc->effects[e].disabled)
+        if (l->desc->effects[e].disabled) {
             plr_note_lost(l, e);
-        else
+        } else {
+            l->said[e] = l->messages.count;
             add_effect(l, e);
+            l->said_end[e] = l->messages.count;
+        }
     if (l->base_fault)
         return;
     plr_order_calls(l);

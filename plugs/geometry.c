@@ -63,6 +63,45 @@ bool plr_declare_main(plr_linking *l, plr_node *node, const plr_name *name) {
     return true;
 }
 
+/* The word of `layout (word) in;` that says what comes in; PLR_NONE: the item is none such. */
+static uint32_t input_word(const plr_unit *unit, const plr_item *item) {
+    static const char *const words[] = {"points", "lines", "lines_adjacency", "triangles",
+                                        "triangles_adjacency"};
+    const plr_token *tokens = unit->lexed->tokens.items;
+    if (item->kind != PLR_ITEM_KEPT || item->end < item->first + 3 ||
+        tokens[item->first].kind != PLR_T_IDENT || tokens[item->end - 2].kind != PLR_T_IDENT ||
+        plr_token_ident(unit, item->first)->word != PLR_WORD_layout ||
+        plr_token_ident(unit, item->end - 2)->word != PLR_WORD_in)
+        return PLR_NONE;
+    for (uint32_t i = item->first + 1; i < item->end - 2; i++) {
+        const plr_ident *ident = tokens[i].kind == PLR_T_IDENT ? plr_token_ident(unit, i) : NULL;
+        for (size_t w = 0; ident && w < sizeof words / sizeof *words; w++)
+            if (strlen(words[w]) == ident->length &&
+                memcmp(words[w], ident->text, ident->length) == 0)
+                return i;
+    }
+    return PLR_NONE;
+}
+
+bool plr_takes_primitive(plr_linking *l, const plr_scope *scope) {
+    const char *given = l->desc->primitive;
+    for (uint32_t u = 0; given && u < scope->unit_count; u++) {
+        const plr_unit *unit = &scope->units[u];
+        for (size_t i = 0; unit->cut && i < unit->cut->items.count; i++) {
+            uint32_t word = input_word(unit, &unit->cut->items.items[i]);
+            const plr_ident *ident = word == PLR_NONE ? NULL : plr_token_ident(unit, word);
+            if (!ident ||
+                (strlen(given) == ident->length && memcmp(given, ident->text, ident->length) == 0))
+                continue;
+            plr_say(l, PLR_CODE_WRONG_PRIMITIVE, plr_token_place(unit, word),
+                    "this geometry stage takes %.*s, but gets %s", (int)ident->length, ident->text,
+                    given);
+            return false;
+        }
+    }
+    return true;
+}
+
 /* The first unit of an effect in a stage. */
 static const plr_source *first_source(const plr_effect *effect, plr_stage stage) {
     for (size_t i = 0; i < effect->source_count; i++)
@@ -247,15 +286,13 @@ static void refuse(plr_linking *l, const joint *variable, const char *why) {
     uint32_t owner = unit->scope->owner < l->effect_count ? unit->scope->owner : l->main_effect;
     if (owner == PLR_NONE || l->unfit[owner])
         return;
-    plr_message *message = PLR_NEW(l->arena, plr_message);
-    *message = (plr_message){
+    const plr_message message = {
         .severity = PLR_ERROR,
         .code = PLR_CODE_GLSL_LINK,
         .place = plr_token_place(unit, variable->name->token),
         .text = plr_arena_format(l->arena, "\"%s\" cannot go through the geometry stage: %s",
                                  plr_gid_text(l, plr_token_gid(unit, variable->name->token)), why)};
-    l->unfit[owner] = message;
-    l->again = true;
+    plr_leave_out(l, owner, &message);
 }
 
 /* Names that were to be copied have another text now. */

@@ -113,6 +113,8 @@ static void start_round(plr_linking *l, plr_arena *pass) {
     l->active = PLR_NEW_ARRAY(pass, effects, bool);
     l->provider_of = PLR_NEW_ARRAY(pass, effects, uint32_t);
     l->lost_from = PLR_NEW_ARRAY(pass, effects, uint32_t);
+    l->said = PLR_NEW_ARRAY(pass, effects, size_t);
+    l->said_end = PLR_NEW_ARRAY(pass, effects, size_t);
 }
 
 static void prepare(plr_linking *l, plr_arena *pass) {
@@ -129,7 +131,7 @@ static void prepare(plr_linking *l, plr_arena *pass) {
     l->offered = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
     l->asked = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
     l->members = PLR_NEW_ARRAY(l->arena, idents, uint8_t);
-    l->unfit = PLR_NEW_ARRAY(l->arena, (size_t)l->effect_count + 1, plr_message *);
+    l->unfit = PLR_NEW_ARRAY(l->arena, (size_t)l->effect_count + 1, plr_unfit *);
     note_questions(l);
     note_members(l);
 }
@@ -168,6 +170,7 @@ static void run_rounds(plr_program *program) {
             return;
         if (l->stages & 1u << PLR_GEOMETRY && !plr_entry(l, PLR_GEOMETRY)) {
             l->no_geometry = true;
+            plr_keep_faults(l, PLR_GEOMETRY);
             plr_set_hosts(l);
             l->again = true;
         }

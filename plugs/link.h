@@ -164,6 +164,13 @@ typedef struct plr_message {
     const char *text;
 } plr_message;
 
+/* An effect that was found in a round to be left out of the next ones, and what is said of it:
+ * nothing where it is merely not needed. */
+typedef struct plr_unfit {
+    plr_message *messages;
+    size_t count;
+} plr_unfit;
+
 /* A call that is to be added when its effect proves to be without fault. */
 typedef struct plr_pending {
     plr_socket *socket;
@@ -216,7 +223,7 @@ typedef struct plr_linking {
     uint8_t *asked;        /* by gid: PLR_ASKED_... */
     uint8_t *members;      /* by gid: whether an effect has a member of that name */
     bool dynamic, grown, all;
-    plr_message **unfit; /* by effect: left out, and why; text NULL: not needed */
+    plr_unfit **unfit; /* by effect: NULL: it may be used */
     unsigned restarts;
     bool again;       /* the round found an effect to be left out */
     bool no_geometry; /* no text of the geometry stage has main(): there is no such stage */
@@ -238,6 +245,7 @@ typedef struct plr_linking {
     uint32_t *provider_of; /* by effect: the scope that it was last noted for */
     PLR_LIST(plr_node *) queue;
     PLR_LIST(plr_pending) pending; /* calls of the effect at hand */
+    size_t *said, *said_end;       /* by effect: the messages about it */
     uint32_t *lost_from;           /* by effect: + 1: the faulty one that it would build on */
     bool *called;                  /* by effect: it has calls, or had before others' removal */
     bool *removed;                 /* by effect: another takes its calls away */
@@ -377,6 +385,8 @@ bool plr_wants_geometry(const plr_linking *l);
 plr_binding *plr_entry(const plr_linking *l, plr_stage stage);
 /* Declares main() in an effect's geometry unit; false: there is one already. */
 bool plr_declare_main(plr_linking *l, plr_node *node, const plr_name *name);
+/* Whether units of the stage, one of which has main(), take what the host draws; says so if not. */
+bool plr_takes_primitive(plr_linking *l, const plr_scope *scope);
 /* Says which parts of effects are left out because there is no such stage. */
 void plr_say_stages(plr_linking *l);
 /* Finds the varyings to be carried through the stage, once everything is reached; effects with what
@@ -387,6 +397,11 @@ void plr_pass_varyings(plr_linking *l);
 plr_binding *plr_geometry_output(plr_linking *l, const plr_unit *unit, uint32_t gid);
 
 /* effects.c: one effect after the other. */
+/* Leaves an effect out of the next rounds; `message`, whose text lives as long as the link, may be
+ * NULL. */
+void plr_leave_out(plr_linking *l, uint32_t effect, const plr_message *message);
+/* The effects that are faulty in a stage that there will not be: their faults stay. */
+void plr_keep_faults(plr_linking *l, plr_stage stage);
 void plr_add_effects(plr_linking *l);
 
 /* messages.c */

@@ -46,14 +46,13 @@ bool plr_lacks_name(plr_linking *l, const plr_unit *unit, uint32_t token) {
     uint32_t from = l->lost_from[owner] - 1, gid = plr_token_gid(unit, token);
     if (!plr_table_get(&l->lost_names, name_key(from, gid)))
         return false;
-    plr_message *message = PLR_NEW(l->arena, plr_message);
-    *message = (plr_message){
+    const plr_message message = {
         .severity = PLR_NOTE,
         .code = PLR_CODE_LACKS,
         .place = plr_token_place(unit, token),
         .text = plr_arena_format(l->arena, "%s lacks \"%s\", that %s would have offered",
                                  plr_effect_text(l, owner), plr_gid_text(l, gid),
                                  plr_effect_text(l, from))};
-    l->unfit[owner] = message;
-    return l->again = true;
+    plr_leave_out(l, owner, &message);
+    return true;
 }

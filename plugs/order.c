@@ -99,8 +99,7 @@ void plr_leave_inactive(plr_linking *l) {
         if (!effect->only_if_active || effect->disabled || l->faulty[e] || l->left_out[e] ||
             !target_of(l, e) || plr_table_get(&active, aim_of(l, e)))
             continue;
-        l->unfit[e] = PLR_NEW(l->arena, plr_message);
-        l->again = true;
+        plr_leave_out(l, e, NULL);
     }
 }
 

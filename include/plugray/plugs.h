@@ -129,6 +129,9 @@ typedef struct plr_link_desc {
     /* The base is an author's own shader: of plugs that it lacks nothing is said, unless one of
      * nearly that name is known. */
     bool own_base;
+    /* What the host draws, "points", "lines" or "triangles", for the geometry stage; NULL: not
+     * compared. */
+    const char *primitive;
     plr_target_glsl glsl;
     bool keep_all;      /* leave nothing out */
     size_t max_text;    /* bytes of input at most; 0: 64 MiB */

@@ -93,6 +93,55 @@ static void test_obstacles(void) {
     }
 }
 
+static void test_primitives(void) {
+    static const struct {
+        const char *given, *layout;
+        bool fits;
+    } rows[] = {{NULL, "lines", true},
+                {"lines", "lines", true},
+                {"lines", "triangles", false},
+                {"points", "lines", false},
+                {"triangles", "invocations = 1, triangles", true},
+                {"triangles", "triangles_adjacency", false}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (int complete = 0; complete < 2; complete++) {
+            char text[512];
+            snprintf(text, sizeof text,
+                     "#version 400\nlayout(%s) in;\nlayout(points, max_vertices = 1) out;\n"
+                     "void main() { gl_Position = vec4(0.0); EmitVertex(); }\n",
+                     rows[i].layout);
+            begin();
+            base_vertex("void main() { gl_Position = vec4(0.0); }\n");
+            base_geometry(complete ? text : geometry_base);
+            base("out vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+            effect(NULL);
+            if (!complete)
+                geometry_unit(text);
+            description()->primitive = rows[i].given;
+            const linked *r = link_all();
+            CHECK(!*r->geometry == !rows[i].fits);
+            CHECK_INT(
+                said(complete ? "base.geom:2:8: error" : "a.geom:2:8: error", "wrong-primitive"),
+                !rows[i].fits);
+            CHECK(complete || plr_program_is_faulty(r->program, 0) == !rows[i].fits);
+        }
+}
+
+/* A fault of the effect that brings the stage is told, though there is no stage then. */
+static void test_faulty_main(void) {
+    start();
+    effect(NULL);
+    geometry_unit(LAYOUT MAIN "int PLUG_geometry_vertex_set(const int index) { return 1; }\n");
+    effect("void PLUG_change(inout vec4 c) { c.r = 0.0; }\n");
+    geometry_unit("void PLUG_geometry_vertex_set(const int index) { }\n");
+    const linked *r = link_valid();
+    CHECK_SAID("a.geom:11:5: error", "plug-not-void");
+    CHECK_SAID("b.geom:1:1: warning", "no-main");
+    CHECK_INT(plr_diags_count(r->diags), 2);
+    CHECK(plr_program_is_faulty(r->program, 0));
+    CHECK_STR(r->geometry, "");
+}
+
 static void test_size_of_points(void) {
     for (int sized = 0; sized < 2; sized++) {
         start();
@@ -268,6 +317,8 @@ int main(void) {
     read_base();
     test_passing();
     test_obstacles();
+    test_primitives();
+    test_faulty_main();
     test_size_of_points();
     test_blending();
     test_by_hand();

@@ -226,6 +226,21 @@ def primitives():
 
 
 @suite.case
+def other_primitives():
+    "an effect whose geometry stage takes something else is left out of that shape, and said so"
+    same = effect(LAYOUT + SAME, kind="GEOMETRY", head="DEF Same")
+    lines = "LineSet { vertexCount 2 coord Coordinate { point [-1 0 0, 1 0 0] } }"
+    turn = effect("void PLUG_fragment_modify(inout vec4 color) { color.rgb = color.bgr; }")
+    text = front_scene("Group { children [\n", same, turn, quad(UNLIT), quad(UNLIT, geometry=lines), "] }\n")
+    result = suite.render(text, "--probe", "8,7", "--probe", "2,7", "--probe", "2,8", status=1)
+    rows = [[float(w) for w in line.split()] for line in result.output.splitlines()]
+    suite.close("the square", rows[0], (0.6, 0.4, 0.2, 1))
+    suite.check("the line", (0.6, 0.4, 0.2, 1) in [tuple(round(v, 6) for v in row) for row in rows[1:]], rows)
+    line = next(i for i, l in enumerate(text.splitlines(), 1) if "layout(triangles) in" in l)
+    suite.equal("its word", [(m[1], m[2], m[5]) for m in result.messages()], [(line, 8, "wrong-primitive")])
+
+
+@suite.case
 def complete_shader():
     "complete shaders: their own geometry stage, and the engine's functions where they have none"
     vertex = """attribute vec4 castle_Vertex;
