@@ -104,6 +104,7 @@ void plr_targets_prepare(plr_view *view, plr_diags *diags) {
         target->never = target->never || plr_node_is(target->node, "GeneratedShadowMap");
     }
     plr_casters_prepare(view); /* for maps that only authors read */
+    plr_targets_find_signals(view);
     view->targets.order = PLR_NEW_ARRAY(&view->arena, view->targets.count + 1, size_t);
 }
 
@@ -150,16 +151,23 @@ void plr_targets_finish(plr_view *view) {
 
 /* ---- Drawing ---- */
 
+static void draw(plr_view *view, plr_target *target, const plr_frame *here) {
+    plr_target_send_rendering(view, target, true);
+    plr_target_draw(view, target, here);
+    plr_target_send_rendering(view, target, false);
+}
+
 void plr_targets_draw(plr_view *view, const plr_frame *here) {
     if (!view->targets.count)
         return;
     plr_targets_order(view, here);
+    plr_targets_send_cameras(view);
     for (size_t i = 0; i < view->targets.order_count; i++)
         plr_target_clear(view, view->targets.items[view->targets.order[i]]);
     for (size_t i = 0; i < view->targets.order_count; i++) {
         plr_target *target = view->targets.items[view->targets.order[i]];
         if (!target->never && !(target->once && target->drawn))
-            plr_target_draw(view, target, here);
+            draw(view, target, here);
         target->drawn = true;
     }
 }
@@ -170,14 +178,11 @@ bool plr_targets_camera(plr_view *view, const plr_node *texture, plr_matrix *pro
         plr_target *target = view->targets.items[i];
         if (target->node != texture || target->shadow || target->texture->kind != PLR_TEXTURE_2D)
             continue;
-        plr_frame frame;
-        if (target->own)
-            plr_view_enter(view, target->own);
-        plr_target_plan(view, target, NULL, &frame);
-        if (target->own)
-            plr_view_enter(view, target->own);
-        *projection = frame.projection;
-        *viewing = frame.view;
+        const double depths[2] = {0.1,
+                                  1000}; /* whatever a depth buffer needs is nobody's business */
+        const plr_viewpoint *viewpoint = target->viewpoint ? target->viewpoint : view->viewpoint;
+        plr_viewpoint_matrices(viewpoint, target->texture->width, target->texture->height, depths,
+                               projection, viewing);
         return true;
     }
     return false;

@@ -44,8 +44,8 @@ void plr_targets_find(plr_view *view);
 void plr_targets_draw(plr_view *view, const plr_frame *here);
 void plr_targets_finish(plr_view *view);
 
-/* Projection and world-to-eye matrix of the camera that a RenderedTexture is drawn with. False if
- * the node is none of this view. */
+/* Projection and world-to-eye matrix of the camera that a RenderedTexture is drawn with, near 0.1
+ * and far 1000 unless its viewpoint says otherwise. False if the node is none of this view. */
 bool plr_targets_camera(plr_view *view, const plr_node *texture, plr_matrix *projection,
                         plr_matrix *viewing);
 

@@ -14,4 +14,10 @@ void plr_target_draw(plr_view *view, plr_target *target, const plr_frame *here);
 void plr_target_plan(plr_view *view, const plr_target *target, const plr_frame *here,
                      plr_frame *frame);
 
+/* ---- ROUTEs from a RenderedTexture ---- */
+
+void plr_targets_find_signals(plr_view *view);
+void plr_targets_send_cameras(plr_view *view);
+void plr_target_send_rendering(plr_view *view, const plr_target *target, bool rendering);
+
 #endif

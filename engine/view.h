@@ -81,12 +81,21 @@ typedef struct plr_shadows {
     size_t count, capacity;
 } plr_shadows;
 
+/* A ROUTE of the scene that begins at a target's node. */
+typedef struct plr_signal {
+    size_t target, route;
+} plr_signal;
+
 /* Textures that are drawn before the picture (engine/targets.h). */
 typedef struct plr_targets {
     struct plr_target **items;
     size_t count, capacity;
     size_t *order; /* of drawing */
     size_t order_count;
+    struct {
+        plr_signal *items;
+        size_t count, capacity;
+    } signals;
 } plr_targets;
 
 /* What is drawn together: the scene, or what a RenderedTexture shows in its place. A view has the

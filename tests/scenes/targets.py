@@ -175,6 +175,25 @@ def effects_and_samplers():
 
 
 @suite.case
+def signals():
+    "viewing, projection and rendering go by ROUTEs to fields of effects"
+    seen = """material UnlitMaterial { } effects DEF E Effect { inputOutput SFMatrix4f m 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1
+    parts EffectPart { type "FRAGMENT" url "data:text/plain, uniform mat4 m;
+    void PLUG_fragment_modify(inout vec4 color) { color.rgb = (m * vec4(1.0, 1.0, 1.0, 1.0)).xyz / vec3(40.0, 2.0, 10.0) + vec3(1.0, 0.0, 1.0); }" } }"""
+    texture = rendered(ASIDE, def_name="DEF T")
+    text = START + quad(seen, 1, 1) + screen(texture) + "ROUTE T.viewing TO E.m\n"
+    # (1, 1, 1) from an eye at (20, 0, 10): (-19, 1, -9)
+    suite.close("viewing", suite.probe(text, [(8, 8)])[0][:3], (1 - 19 / 40, 0.5, 1 - 0.9))
+    flag = """material UnlitMaterial { emissiveColor 0 0 1 } effects DEF E Effect { inputOutput SFBool on FALSE
+    parts EffectPart { type "FRAGMENT" url "data:text/plain, uniform bool on;
+    void PLUG_fragment_modify(inout vec4 color) { if (on) color.rgb = vec3(1.0, 0.0, 0.0); }" } }"""
+    text = START + screen(texture, 0.5, 1) + quad(flag) + "ROUTE T.rendering TO E.on\n"
+    text = text.replace(ASIDE, "")
+    got = suite.probe(text, [(8, 8), (1, 1)])
+    suite.close("rendering", red_green_blue(got), [1, 0, 0, 0, 0, 1])
+
+
+@suite.case
 def samples():
     "with several samples a pixel it is drawn once, from the middle"
     text = START + screen(rendered(ASIDE)) + aside(QUARTER)
