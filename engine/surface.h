@@ -33,6 +33,10 @@ size_t plr_shape_effect(plr_shape *shape, const char *path, const char *name, pl
 /* A macro of this effect alone, for plr_shape_effect; the value is copied. */
 plr_define plr_shape_define(plr_shape *shape, const char *name, int value);
 
+/* What gives the surface its colours: a CommonSurfaceShader among the shaders of the Appearance, else
+ * its material; or NULL. */
+plr_node *plr_shape_material_node(const plr_shape *shape);
+
 /* ---- In the order of calls ---- */
 
 void plr_shape_material(plr_shape *shape);

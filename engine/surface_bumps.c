@@ -28,6 +28,6 @@ static bool add_normals(plr_shape *shape, plr_node *owner, const char *field) {
 void plr_shape_bumps(plr_shape *shape) {
     if (!shape->lit || !shape->appearance)
         return;
-    if (!add_normals(shape, plr_node_child(shape->appearance, "material"), "normalTexture"))
+    if (!add_normals(shape, plr_shape_material_node(shape), "normalTexture"))
         add_normals(shape, shape->appearance, "normalMap");
 }

@@ -4,6 +4,15 @@
 
 #include "engine/surface_textures.h"
 
+plr_node *plr_shape_material_node(const plr_shape *shape) {
+    const plr_field *shaders =
+        shape->appearance ? plr_node_field(shape->appearance, "shaders") : NULL;
+    for (size_t i = 0; shaders && i < shaders->count; i++)
+        if (shaders->value.nodes[i] && plr_node_is(shaders->value.nodes[i], "CommonSurfaceShader"))
+            return shaders->value.nodes[i];
+    return shape->appearance ? plr_node_child(shape->appearance, "material") : NULL;
+}
+
 /* Its node types are those of the material's colours; the field's place is the fault's. */
 static plr_node *back_material(const plr_shape *shape, plr_node *material, const char *type) {
     plr_node *back = plr_node_child(shape->appearance, "backMaterial");
@@ -43,7 +52,7 @@ static void add_vertex_colors(plr_shape *shape) {
 /* What has no normals is not lit: its Material counts by its emissive colour (ISO/IEC 19775-1 V4
  * 11.2.2.5). */
 void plr_shape_material(plr_shape *shape) {
-    plr_node *material = shape->appearance ? plr_node_child(shape->appearance, "material") : NULL;
+    plr_node *material = plr_shape_material_node(shape);
     if (material)
         add_material(shape, material);
     if (material && !shape->material)
@@ -96,7 +105,8 @@ static bool is_transparent(const plr_node *material) {
     for (size_t i = 0; material && i < sizeof fields / sizeof *fields; i++)
         if (plr_node_field(material, fields[i]) && plr_node_number(material, fields[i]) > 0)
             return true;
-    return false;
+    return material && plr_node_field(material, "alphaFactor") &&
+           plr_node_number(material, "alphaFactor") < 1;
 }
 
 static bool has_transparent_colors(const plr_mesh *mesh) {
@@ -114,7 +124,7 @@ plr_texture_alpha plr_shape_alpha(const plr_shape *shape) {
     if (asked_alpha(shape, &asked))
         return asked;
     blends = blends || plr_node_child(shape->appearance, "blendMode") ||
-             is_transparent(plr_node_child(shape->appearance, "material")) ||
+             is_transparent(plr_shape_material_node(shape)) ||
              is_transparent(plr_node_child(shape->appearance, "backMaterial"));
     return blends ? PLR_ALPHA_BLENDING : plr_shape_texture_alpha(shape);
 }

@@ -11,14 +11,18 @@
 static const struct {
     const char *material, *field;
     bool lit;
-} main_fields[] = {
-    {"Material", "diffuseTexture", true},       {"Material", "emissiveTexture", false},
-    {"PhysicalMaterial", "baseTexture", true},  {"PhysicalMaterial", "emissiveTexture", false},
-    {"UnlitMaterial", "emissiveTexture", true}, {"UnlitMaterial", "emissiveTexture", false}};
+} main_fields[] = {{"Material", "diffuseTexture", true},
+                   {"Material", "emissiveTexture", false},
+                   {"PhysicalMaterial", "baseTexture", true},
+                   {"PhysicalMaterial", "emissiveTexture", false},
+                   {"CommonSurfaceShader", "diffuseTexture", true},
+                   {"CommonSurfaceShader", "multiDiffuseAlphaTexture", true},
+                   {"UnlitMaterial", "emissiveTexture", true},
+                   {"UnlitMaterial", "emissiveTexture", false}};
 
 /* The field of the material that has the main texture, or NULL. */
 static const char *main_field(const plr_shape *shape, plr_node **material) {
-    *material = shape->appearance ? plr_node_child(shape->appearance, "material") : NULL;
+    *material = plr_shape_material_node(shape);
     for (size_t i = 0; *material && i < sizeof main_fields / sizeof *main_fields; i++)
         if (plr_node_is(*material, main_fields[i].material) && shape->lit == main_fields[i].lit &&
             plr_node_child(*material, main_fields[i].field))
@@ -230,8 +234,7 @@ static void add_mode(plr_shape *shape, const char *mode, const char *source, con
         define(shape, &list, channels, 1);
     define(shape, &list, "LAST", last);
     plr_shape_effect(shape, "textures/MultiTextureMode", "MultiTextureMode",
-                     plr_node_child(shape->appearance, "material"), texture, list.items,
-                     list.count);
+                     plr_shape_material_node(shape), texture, list.items, list.count);
 }
 
 static void add_stage(plr_shape *shape, plr_node *multi, size_t index, plr_node *node,
@@ -303,17 +306,24 @@ static void add_main(plr_shape *shape) {
  * the names of the fields. */
 static const struct {
     const char *material, *field;
-} other_fields[] = {
-    {"Material", "ambientTexture"},          {"Material", "specularTexture"},
-    {"Material", "shininessTexture"},        {"Material", "emissiveTexture"},
-    {"Material", "occlusionTexture"},        {"PhysicalMaterial", "metallicRoughnessTexture"},
-    {"PhysicalMaterial", "emissiveTexture"}, {"PhysicalMaterial", "occlusionTexture"}};
+} other_fields[] = {{"Material", "ambientTexture"},
+                    {"Material", "specularTexture"},
+                    {"Material", "shininessTexture"},
+                    {"Material", "emissiveTexture"},
+                    {"Material", "occlusionTexture"},
+                    {"CommonSurfaceShader", "ambientTexture"},
+                    {"CommonSurfaceShader", "specularTexture"},
+                    {"CommonSurfaceShader", "shininessTexture"},
+                    {"CommonSurfaceShader", "emissiveTexture"},
+                    {"PhysicalMaterial", "metallicRoughnessTexture"},
+                    {"PhysicalMaterial", "emissiveTexture"},
+                    {"PhysicalMaterial", "occlusionTexture"}};
 
 void plr_shape_textures(plr_shape *shape) {
     plr_shape_main_coordinates(shape);
     if (shape->appearance)
         add_main(shape);
-    plr_node *material = shape->appearance ? plr_node_child(shape->appearance, "material") : NULL;
+    plr_node *material = plr_shape_material_node(shape);
     for (size_t i = 0; material && shape->lit && i < sizeof other_fields / sizeof *other_fields;
          i++)
         if (plr_node_is(material, other_fields[i].material))

@@ -203,6 +203,34 @@ def material_textures():
 
 
 @suite.case
+def common_surface_shader():
+    "CommonSurfaceShader: factors and textures, in place of the material"
+    def shader(fields):
+        return ("shaders CommonSurfaceShader { diffuseFactor .6 .4 .2 specularFactor .5 .5 .5 "
+                "shininessFactor .25 ambientFactor .3 .2 .1 emissiveFactor .1 .2 .3 " + fields + " }")
+
+    red = "Material { diffuseColor 1 0 0 }"
+    check_all((
+        ("factors", DIRECTION + quad(red, appearance=shader("")), phong()),
+        ("diffuse", DIRECTION + quad(red, appearance=shader("diffuseTexture " + FIELD % "")),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR), ambient=(0.3, 0.2, 0.1))),
+        ("diffuse and alpha in one", DIRECTION + quad(red, appearance=shader(
+            "multiDiffuseAlphaTexture " + FIELD % "")),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR), ambient=(0.3, 0.2, 0.1))),
+        ("the Appearance's", DIRECTION + quad(red, appearance=shader("") + " texture " + FIELD % ""),
+         phong(diffuse=times((0.6, 0.4, 0.2), COLOR), ambient=(0.3, 0.2, 0.1))),
+        ("ambient", DIRECTION + quad(red, appearance=shader("ambientTexture " + FIELD % "")),
+         phong(ambient=times((0.3, 0.2, 0.1), COLOR))),
+        ("specular", DIRECTION + quad(red, appearance=shader("specularTexture " + FIELD % "")),
+         phong(specular=times((0.5,) * 3, COLOR))),
+        ("emissive", DIRECTION + quad(red, appearance=shader("emissiveTexture " + FIELD % "")),
+         phong(emissive=times((0.1, 0.2, 0.3), COLOR))),
+        ("alphaFactor", DIRECTION + quad(red, appearance=shader("alphaFactor .25")),
+         [0.25 * c for c in phong()] + [0.25]),
+    ))
+
+
+@suite.case
 def too_many_samplers():
     "an effect with more textures than a program can read is left out, with an error at the sampler"
     count = 200
