@@ -111,21 +111,26 @@ static void step(walk *w) {
     }
 }
 
-size_t plr_program_calls(const plr_program *program, plr_call_info *calls, size_t capacity) {
+/* False without memory. */
+static bool walk_stages(walk *w) {
     jmp_buf out_of_memory;
-    walk w = {.l = &program->linking, .calls = calls, .capacity = capacity};
-    plr_arena_init(&w.arena, &program->allocator, &out_of_memory);
-    if (setjmp(out_of_memory)) {
-        plr_arena_finish(&w.arena);
-        return 0;
-    }
+    w->arena.out_of_memory = &out_of_memory;
+    if (setjmp(out_of_memory))
+        return false;
     for (unsigned s = 0; s < PLR_STAGE_COUNT; s++) {
-        const plr_binding *entry = w.l->stages & 1u << s ? plr_entry(w.l, (plr_stage)s) : NULL;
+        const plr_binding *entry = w->l->stages & 1u << s ? plr_entry(w->l, (plr_stage)s) : NULL;
         if (entry)
-            follow_symbol(&w, entry, 0);
-        while (w.stack.count)
-            step(&w);
+            follow_symbol(w, entry, 0);
+        while (w->stack.count)
+            step(w);
     }
+    return true;
+}
+
+size_t plr_program_calls(const plr_program *program, plr_call_info *calls, size_t capacity) {
+    walk w = {.l = &program->linking, .calls = calls, .capacity = capacity};
+    plr_arena_init(&w.arena, &program->allocator, NULL);
+    bool done = walk_stages(&w);
     plr_arena_finish(&w.arena);
-    return w.count;
+    return done ? w.count : 0;
 }

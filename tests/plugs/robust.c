@@ -180,33 +180,51 @@ static void count_release(void *user, void *pointer) {
 static bool link_with(long allocations, long *leaked) {
     counter c = {allocations, 0};
     plr_allocator allocator = {count_reallocate, count_release, &c};
-    static const char *const texts[] = {BASE, LIBRARY, EFFECT};
+    enum {
+        COUNT = 7
+    };
+    static const struct {
+        plr_stage stage;
+        const char *text;
+    } texts[COUNT] = {
+        {PLR_FRAGMENT, BASE},
+        {PLR_VERTEX, "in vec4 p;\nout vec3 n;\nvoid main() { n = p.xyz; gl_Position = p; }\n"},
+        {PLR_GEOMETRY, "void plugray_varyings_set(const int index);\n"
+                       "void geometryVertexSet(const int index) {\n  plugray_varyings_set(index);\n"
+                       "  /* PLUG: geometry_vertex_set (index) */\n}\n"},
+        {PLR_FRAGMENT, LIBRARY},
+        {PLR_FRAGMENT, EFFECT},
+        {PLR_GEOMETRY, "layout(triangles) in;\nlayout(points, max_vertices = 1) out;\n"
+                       "void main() { geometryVertexSet(0); EmitVertex(); }\n"},
+        {PLR_FRAGMENT, "in vec3 n;\nvoid PLUG_change(inout vec4 x) { x.rgb *= n; }\n"},
+    };
     plr_break breaks[] = {{2, 3, 4}};
     plr_origin origin = {"file", 1, 1, breaks, 1};
-    plr_source *sources[3];
+    plr_source *sources[COUNT];
     bool good = true;
     plr_diags *diags = plr_diags_create(&allocator);
-    for (int i = 0; i < 3; i++) {
-        sources[i] =
-            plr_source_read(PLR_FRAGMENT, texts[i], strlen(texts[i]), &origin, &allocator, diags);
+    for (int i = 0; i < COUNT; i++) {
+        sources[i] = plr_source_read(texts[i].stage, texts[i].text, strlen(texts[i].text), &origin,
+                                     &allocator, diags);
         good &= sources[i] != NULL;
     }
     if (good) {
-        plr_effect effects[2] = {
-            {.sources = (const plr_source *const *)&sources[2], .source_count = 1},
-            {.sources = (const plr_source *const *)&sources[2], .source_count = 1}};
-        plr_link_desc desc = {.base = (const plr_source *const *)&sources[0],
-                              .base_count = 1,
-                              .library = (const plr_source *const *)&sources[1],
+        const plr_source *const *all = (const plr_source *const *)sources;
+        plr_effect effects[3] = {{.sources = &all[4], .source_count = 1},
+                                 {.sources = &all[4], .source_count = 2},
+                                 {.sources = &all[6], .source_count = 1}};
+        plr_link_desc desc = {.base = all,
+                              .base_count = 3,
+                              .library = &all[3],
                               .library_count = 1,
                               .effects = effects,
-                              .effect_count = 2,
+                              .effect_count = 3,
                               .allocator = &allocator};
         plr_program *program = plr_link(&desc, diags);
-        good = program != NULL;
+        good = program && plr_program_calls(program, NULL, 0) > 0;
         plr_program_destroy(&program);
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < COUNT; i++)
         plr_source_destroy(&sources[i]);
     plr_diags_destroy(&diags);
     *leaked += c.live;
