@@ -238,8 +238,20 @@ void plr_casters_finish(plr_view *view) {
 
 /* ---- Drawing ---- */
 
+/* A map that authors read, too, is what the projector of the light says, and so is one of which the
+ * light says what it holds. */
+static bool is_ours_to_fit(const plr_shadow *shadow) {
+    float box[4] = {0, 0, 0, 0};
+    plr_node_numbers(shadow->light, "projectionRectangle", box, 4);
+    bool given = box[2] > box[0] && box[3] > box[1];
+    return !given && !(plr_node_number(shadow->light, "projectionAngle") > 0) &&
+           (!shadow->map || shadow->map == plr_node_child(shadow->light, "defaultShadowMap"));
+}
+
 static void plan_map(plr_view *view, plr_shadow *shadow, plr_frame *frame) {
     plr_projector_matrices(view, shadow->light, &frame->projection, &frame->view);
+    if (is_ours_to_fit(shadow))
+        plr_shadow_fit(view, shadow, frame);
     plr_matrix half = plr_matrix_scale(0.5, 0.5, 0.5);
     plr_matrix middle = plr_matrix_translation(0.5, 0.5, 0.5);
     plr_matrix to_map = plr_matrix_multiply(&middle, &half);

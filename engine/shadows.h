@@ -25,6 +25,11 @@ void plr_casters_prepare(plr_view *view);
 void plr_casters_find(plr_view *view);
 void plr_casters_finish(plr_view *view);
 
+/* Whether an author's effect may move the vertices of the shape. */
+bool plr_model_is_moved(const plr_model *model);
+/* Narrows a light's view to what casts shadows on anything. */
+void plr_shadow_fit(const plr_view *view, const plr_shadow *shadow, plr_frame *frame);
+
 /* ---- Drawing. Needs GL. ---- */
 
 /* Brings the values to the light's place now; the frames of its faces (1 or 6) come out. */

@@ -40,17 +40,6 @@ static bool may_see(const plr_matrix *world_to_clip, const plr_surface *surface)
     return true;
 }
 
-/* What moves vertices may move them into sight. */
-static bool is_moved(const plr_model *model) {
-    for (size_t i = 0; i < model->pass.recipe.effects.count; i++) {
-        const plr_effect *effect = &model->pass.recipe.effects.items[i];
-        for (size_t s = 0; !effect->builtin && s < effect->source_count; s++)
-            if (plr_source_stage(effect->sources[s]) != PLR_FRAGMENT)
-                return true;
-    }
-    return model->pass.recipe.base_node != NULL;
-}
-
 static bool reads_generated(const plr_model *model) {
     size_t at = 0;
     const plr_texture *texture;
@@ -70,8 +59,9 @@ static void need_world(search *s, const plr_world *world, const plr_background *
         need_all_of(s, &world->models[i]->pass.slots);
     for (size_t i = 0; world_to_clip && i < world->surface_count; i++) {
         const plr_surface *surface = &world->surfaces[i];
+        /* what moves vertices may move them into sight */
         if (reads_generated(surface->model) &&
-            (is_moved(surface->model) || may_see(world_to_clip, surface)))
+            (plr_model_is_moved(surface->model) || may_see(world_to_clip, surface)))
             need_all_of(s, &surface->model->pass.slots);
     }
 }
