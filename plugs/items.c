@@ -80,7 +80,8 @@ static void pass_directive(cutter *c) {
     uint32_t index = c->tokens[c->at].value;
     if (c->activity && c->activity->kept[index] > PLR_KEPT_AS_IS)
         pass_kept(c, (plr_kept)c->activity->kept[index], c->at);
-    else if (directive->kind == PLR_D_DEFINE && directive->token + 1 < directive->end)
+    else if (directive->kind == PLR_D_DEFINE && directive->token + 1 < directive->end &&
+             c->tokens[directive->token + 1].kind == PLR_T_IDENT)
         add_name(c, (plr_name){.token = directive->token + 1,
                                .kind = PLR_ITEM_MACRO,
                                .inner = true,

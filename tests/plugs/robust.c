@@ -16,6 +16,8 @@
 #define LIBRARY "float helper(float x) { return x; }\nuniform mat4 castle_ModelViewMatrix;\n"
 
 static const char *const broken[] = {
+    "e\n#define*",
+    "void f()\n#define 3 4\n{ }",
     "",
     "\xEF\xBB\xBF",
     "\\",
