@@ -203,6 +203,41 @@ def material_textures():
 
 
 @suite.case
+def physical_textures():
+    "textures of a PhysicalMaterial: the same as other numbers in its fields; colours are decoded"
+    tilted = DIRECTION.replace("0 0 -1", "0 -.5 -1") + "Transform { rotation 0 1 0 .3 children [ %s ] }\n"
+    plain = "PhysicalMaterial { baseColor .8 .6 .4 emissiveColor .2 .3 .4 metallic %s roughness %s %s }"
+    pixel = "%sTexture PixelTexture { image 1 1 3 0x336699 }"
+    decoded = [(v / 255) ** 2.2 for v in (0x33, 0x66, 0x99)]
+
+    def colors(field, base):
+        return f"{field} " + " ".join(repr(b * d) for b, d in zip(base, decoded))
+
+    pairs = (
+        ("metallic and roughness", plain % (0.9, 0.8, pixel % "metallicRoughness"),
+         plain % (0.9 * 0x99 / 255, 0.8 * 0x66 / 255, "")),
+        ("base", plain % (0.5, 0.5, pixel % "base"),
+         (plain % (0.5, 0.5, "")).replace("baseColor .8 .6 .4", colors("baseColor", (0.8, 0.6, 0.4)))),
+        ("emissive", plain % (0.5, 0.5, pixel % "emissive"),
+         (plain % (0.5, 0.5, "")).replace("emissiveColor .2 .3 .4", colors("emissiveColor", (0.2, 0.3, 0.4)))),
+    )
+    row = Row(suite)
+    for _, textured, numbers in pairs:
+        row.add(tilted % quad(textured))
+        row.add(tilted % quad(numbers))
+    row.add(tilted % quad(plain % (0.9, 0.8, "")))
+    got = row.draw()
+    for i, (name, _, _) in enumerate(pairs):
+        suite.close(name, got[2 * i], got[2 * i + 1], 1e-4)
+    suite.check("which is not what it is without", abs(got[0][0] - got[-1][0]) > 0.01, got)
+    row = Row(suite)
+    row.add(DIRECTION + quad(plain % (0, 1, "occlusionStrength 1 occlusionTexture PixelTexture "
+                                      "{ image 1 1 3 0x000000 }")))
+    suite.close("no light arrives: emissive alone", row.draw()[0],
+                [c ** (1 / 2.2) for c in (0.2, 0.3, 0.4)] + [1], 2e-3)
+
+
+@suite.case
 def common_surface_shader():
     "CommonSurfaceShader: factors and textures, in place of the material"
     def shader(fields):
