@@ -19,7 +19,7 @@ typedef struct plr_shape {
     plr_node *appearance, *geometry; /* or NULL */
     plr_recipe *recipe;
     plr_diags *diags;
-    bool lit;        /* has normals: light may change it */
+    bool lit; /* has normals: light may change it */
     plr_texture_alpha alpha;
     size_t material; /* attaches further built-in effects to the material's; 0: none */
     plr_channel channels[PLR_MESH_TEX_UNITS];
@@ -33,8 +33,8 @@ size_t plr_shape_effect(plr_shape *shape, const char *path, const char *name, pl
 /* A macro of this effect alone, for plr_shape_effect; the value is copied. */
 plr_define plr_shape_define(plr_shape *shape, const char *name, int value);
 
-/* What gives the surface its colours: a CommonSurfaceShader among the shaders of the Appearance, else
- * its material; or NULL. */
+/* What gives the surface its colours: a CommonSurfaceShader among the shaders of the Appearance,
+ * else its material; or NULL. */
 plr_node *plr_shape_material_node(const plr_shape *shape);
 
 /* ---- In the order of calls ---- */

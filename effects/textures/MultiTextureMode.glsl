@@ -1,9 +1,9 @@
 /* How one texture of a MultiTexture is mixed: ISO/IEC 19775-1 V4 18.4.3, tables 18.3 (mode), 18.4 (source)
  * and 18.5 (function). The first argument is the texture, the second is what the source says. Where the
- * standard leaves open:
- * REPLACE takes the texture; ADDSIGNED takes 0.5 from the sum; COMPLEMENT leaves alpha; the modes that add a
- * colour multiply alpha; results below 0 are 0, alpha above 1 is 1. CHANNELS_RGB, CHANNELS_ALPHA: these alone ("MODULATE / REPLACE"
- * is two instances); LAST: the function is due. */
+ * standard leaves open: REPLACE takes the texture; ADDSIGNED takes 0.5 from the sum; COMPLEMENT leaves
+ * alpha; the modes that add a colour multiply alpha; results below 0 are 0, alpha above 1 is 1.
+ * CHANNELS_RGB, CHANNELS_ALPHA: these alone ("MODULATE / REPLACE" is two instances); LAST: the function is
+ * due. */
 
 #ifdef SOURCE_SPECULAR
 uniform vec3 specularColor = vec3(0.0);
@@ -58,7 +58,8 @@ void PLUG_texture_mix(inout vec4 result, const in vec4 arg1, const in vec4 previ
 #else
     vec4 mixed = arg1 * arg2;
 #endif
-#if defined(MODE_MODULATE2X) || defined(MODE_MODULATE4X) || defined(MODE_ADD) || defined(MODE_ADDSIGNED) || defined(MODE_ADDSIGNED2X) || defined(MODE_DOTPRODUCT3)
+#if defined(MODE_MODULATE2X) || defined(MODE_MODULATE4X) || defined(MODE_ADD) ||                         \
+    defined(MODE_ADDSIGNED) || defined(MODE_ADDSIGNED2X) || defined(MODE_DOTPRODUCT3)
     mixed.a = min(mixed.a, 1.0);
 #endif
 

@@ -14,7 +14,8 @@ void PLUG_texture_coord_generate(inout vec4 tex_coord, const in vec4 vertex_eye,
     tex_coord = vec4(normal_eye, 1.0);
 #endif
 }
-#elif defined(mode_CAMERASPACEREFLECTIONVECTOR) || defined(mode_WORLDSPACEREFLECTIONVECTOR) || defined(mode_SPHERE_REFLECT)
+#elif defined(mode_CAMERASPACEREFLECTIONVECTOR) || defined(mode_WORLDSPACEREFLECTIONVECTOR) ||           \
+    defined(mode_SPHERE_REFLECT)
 uniform float parameter[1] = float[1](0.0);
 
 void PLUG_texture_coord_generate(inout vec4 tex_coord, const in vec4 vertex_eye, const in vec3 normal_eye) {
