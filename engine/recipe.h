@@ -5,7 +5,7 @@
 
 #include "base/arena.h"
 #include "engine/catalog.h"
-#include "engine/matrix.h"
+#include "base/matrix.h"
 #include "engine/texture.h"
 #include "engine/traverse.h"
 

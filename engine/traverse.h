@@ -4,7 +4,7 @@
 
 #include <plugray/engine.h>
 #include "base/arena.h"
-#include "engine/matrix.h"
+#include "base/matrix.h"
 
 typedef struct plr_light {
     plr_node *node; /* NULL: a headlight as the standard has it */

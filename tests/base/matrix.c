@@ -1,6 +1,6 @@
 #include "tests/tap.h"
 
-#include "engine/matrix.h"
+#include "base/matrix.h"
 
 static void check_point(const plr_matrix *m, double x, double y, double z, double ex, double ey,
                         double ez) {
