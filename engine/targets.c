@@ -20,9 +20,20 @@ static plr_target *push_target(plr_view *view, plr_texture *texture) {
     return target;
 }
 
-static plr_world *new_world(plr_view *view, plr_node *scene, plr_diags *diags) {
+/* What `scene` holds, or all of the scene once more in another fog: fog is part of programs. */
+static plr_world *new_world(plr_view *view, const plr_node *texture, plr_diags *diags) {
+    plr_node *scene = plr_node_child(texture, "scene"), *fog = plr_node_child(texture, "fog");
+    const plr_flat *flat = &view->flat;
+    if (!scene && !fog)
+        return NULL;
     plr_world *world = PLR_NEW(&view->arena, plr_world);
-    plr_flatten_node(&view->arena, view->scene, scene, &view->flat, &world->flat, diags);
+    if (scene)
+        plr_flatten_node(&view->arena, view->scene, scene, flat, &world->flat, diags);
+    else
+        plr_flatten(&view->arena, view->scene, flat->has_eye ? &flat->eye_to_world : NULL,
+                    &world->flat, NULL);
+    if (fog)
+        world->flat.fog = (plr_placed){fog, plr_matrix_identity()};
     world->viewpoint = view->viewpoint;
     return world;
 }
@@ -41,11 +52,10 @@ static const plr_viewpoint *find_viewpoint(plr_view *view, const plr_world *worl
 }
 
 static void prepare_rendered(plr_view *view, plr_target *target, plr_diags *diags) {
-    plr_node *scene = plr_node_child(target->node, "scene");
     plr_node *viewpoint = plr_node_child(target->node, "viewpoint");
     plr_node *background = plr_node_child(target->node, "background");
-    if (scene) {
-        target->own = new_world(view, scene, diags);
+    target->own = new_world(view, target->node, diags);
+    if (target->own) {
         plr_view_enter(view, target->own);
         plr_world_prepare(view, diags);
         plr_view_enter(view, target->own);
@@ -155,6 +165,15 @@ static void draw(plr_view *view, plr_target *target, const plr_frame *here) {
     plr_target_send_rendering(view, target, true);
     plr_target_draw(view, target, here);
     plr_target_send_rendering(view, target, false);
+    target->drawn = true;
+    target->revision = plr_scene_revision(view->scene);
+}
+
+/* What is drawn once is drawn again when the scene has changed: what it shows must not depend on
+ * the times that were asked for before. */
+bool plr_target_is_due(const plr_view *view, const plr_target *target) {
+    bool as_drawn = target->drawn && target->revision == plr_scene_revision(view->scene);
+    return !target->never && !(target->once && as_drawn);
 }
 
 void plr_targets_draw(plr_view *view, const plr_frame *here) {
@@ -166,9 +185,8 @@ void plr_targets_draw(plr_view *view, const plr_frame *here) {
         plr_target_clear(view, view->targets.items[view->targets.order[i]]);
     for (size_t i = 0; i < view->targets.order_count; i++) {
         plr_target *target = view->targets.items[view->targets.order[i]];
-        if (!target->never && !(target->once && target->drawn))
+        if (plr_target_is_due(view, target))
             draw(view, target, here);
-        target->drawn = true;
     }
 }
 

@@ -20,7 +20,7 @@ typedef struct plr_target {
     const plr_viewpoint
         *viewpoint; /* NULL: that of the picture; no meaning for cubes and shadows */
     plr_canvas canvas;
-    bool once;  /* drawn in the first picture alone */
+    bool once;  /* drawn when the scene has changed */
     bool never; /* cleared and no more */
     /* ---- While pictures are drawn ---- */
     enum {
@@ -29,6 +29,7 @@ typedef struct plr_target {
         TARGET_DONE
     } state;
     bool clear, drawn;
+    uint64_t revision;         /* of the scene, when it was drawn */
     plr_world *world;          /* what it shows; NULL: the scene */
     const plr_surface *reader; /* the first surface there that reads it; NULL: none */
 } plr_target;

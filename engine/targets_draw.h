@@ -6,6 +6,8 @@
 
 /* Finds the targets that the picture needs, what is read before what reads it. */
 void plr_targets_order(plr_view *view, const plr_frame *here);
+/* Whether its `update` has it drawn for this picture. */
+bool plr_target_is_due(const plr_view *view, const plr_target *target);
 /* To opaque black, or as far as depths go, where the target asks for it. */
 void plr_target_clear(plr_view *view, plr_target *target);
 /* Draws it, in its world. `here` as in plr_targets_draw. */

@@ -118,7 +118,7 @@ static void need_target(search *s, plr_target *target, size_t index) {
     find_world(s->view, target);
     const plr_world *world = target->world ? target->world : &s->view->world;
     plr_matrix clip;
-    bool draws = !target->never && !(target->once && target->drawn);
+    bool draws = plr_target_is_due(s->view, target);
     if (draws && target->shadow)
         need_casters(s, world);
     else if (draws)

@@ -338,6 +338,9 @@ void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const 
         if (light.in_eye_space ? !flat->navigation : !inside[plr_node_id(light.node)])
             *PLR_PUSH(arena, &flat->global_lights) = light;
     }
+    for (size_t i = 0; i < around->all_lights.count; i++)
+        if (!inside[plr_node_id(around->all_lights.items[i].node)])
+            *PLR_PUSH(arena, &flat->all_lights) = around->all_lights.items[i];
     if (flat->navigation)
         add_headlight(arena, flat);
     limit_views(flat);

@@ -95,6 +95,20 @@ def own_background():
 
 
 @suite.case
+def own_fog():
+    "its field fog replaces that of the scene"
+    fog = ' fog Fog { color 0 0 1 visibilityRange 0.001 }'
+    wall = aside(plain("1 0 0"))
+    reads = f"""material UnlitMaterial {{ }} effects Effect {{ initializeOnly SFNode seen {rendered(ASIDE + fog)}
+    parts EffectPart {{ type "FRAGMENT" url "data:text/plain, uniform sampler2D seen;
+    void PLUG_fragment_end(inout vec4 color) {{ color = texture2D(seen, vec2(0.5)); }}" }} }}"""
+    text = START + "Fog { color 0 1 0 visibilityRange 0.001 }" + quad(reads) + wall
+    suite.close("", suite.probe(text, [(8, 8)])[0][:3], (0, 0, 1))
+    text = text.replace(fog, "")
+    suite.close("without", suite.probe(text, [(8, 8)])[0][:3], (0, 1, 0))
+
+
+@suite.case
 def one_after_another():
     "what a texture shows may read another one, whatever the order in the file"
     third = "viewpoint OrthoViewpoint { position 40 0 10 fieldOfView [ -1 -1 1 1 ] }"
