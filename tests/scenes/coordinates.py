@@ -369,21 +369,19 @@ def cost():
 @suite.case
 def projected():
     "a light or a viewpoint projects a texture"
+    names = iter(range(100))
+
     def one(projector, **options):
-        return shown(f"ProjectedTextureCoordinate {{ projector {projector} }}", **options)
+        """Both in the same place; the quad spans x and y from -.5 to .5."""
+        name = f"P{next(names)}"
+        return f"DEF {name} {projector}\n" + shown(
+            f"ProjectedTextureCoordinate {{ projector USE {name} }}", **options)
 
-    def draw(content):
-        """The coordinates in the pixel at X, Y."""
-        text = HEADER + ("NavigationInfo { headlight FALSE }\n"
-                         "OrthoViewpoint { position 0 0 5 fieldOfView -.5 -.5 .5 .5 }\n" + content)
-        return suite.probe(text, [(1, 1)], size="4x4")[0]
-
-    # the quad spans x and y from -.5 to .5; the projector looks at its middle
     angle = 2 * math.atan(0.25)
     spot = f"SpotLight {{ %s location 0 0 2 projectionAngle {angle} projectionNear 1 projectionFar 3 }}"
     parallel = ("DirectionalLight { projectionLocation 0 0 1 projectionRectangle -1 -.5 1 .5 "
                 "projectionNear .5 projectionFar 1.5 }")
-    cases = [
+    check_all([
         ("SpotLight", one(spot % ""), (0.5 + X, 0.5 + Y, None)),
         ("its cutOffAngle", one(f"SpotLight {{ location 0 0 2 cutOffAngle {angle / 2} projectionNear 1 "
                                 "projectionFar 3 }"), (0.5 + X, 0.5 + Y, None)),
@@ -393,35 +391,37 @@ def projected():
                               "projectionRectangle -1 -1 1 1 projectionNear 1 projectionFar 2 }"),
          (0.5 + X * math.cos(math.pi / 4) / 2, 0.5 + Y / 2, None)),
         ("DirectionalLight", one(parallel), (0.5 + X / 2, 0.5 + Y, 0.5)),
-        ("fitted to the scene", one("DirectionalLight { }"),
-         (0.5 + X / 1.02, 0.5 + Y / 1.02, 0.5)),
         ("Viewpoint", one(f"Viewpoint {{ position 0 0 2 fieldOfView {angle} nearDistance 1 farDistance 3 }}"),
          (0.5 + X, 0.5 + Y, None)),
         ("OrthoViewpoint", one("OrthoViewpoint { position .1 .2 2 fieldOfView -1 -1 1 1 "
                                "nearDistance 1 farDistance 3 }"), (0.45 + X / 2, 0.4 + Y / 2, 0.5)),
-        ("with a place in the scene", "Transform { translation .1 .2 .3 rotation 0 0 1 1.5707963 children "
-         "[ DEF L " + parallel + " ] }\n" + one("USE L"), (0.5 + (Y - 0.2) / 2, 0.5 - (X - 0.1), 0.8)),
-        ("of a moved shape", "Transform { translation .25 0 0 children [ " + one(parallel) + " ] }",
-         (0.5 + X / 2, 0.5 + Y, 0.5)),
+        ("moved and turned", "Transform { translation .1 .2 .3 rotation 0 0 1 1.5707963 children "
+         "[ DEF L " + parallel + " ] }\n" + shown("ProjectedTextureCoordinate { projector USE L }"),
+         (0.5 + (Y - 0.2) / 2, 0.5 - (X - 0.1), 0.8)),
         ("then transformed", one(parallel, appearance="textureTransform TextureTransform { scale 2 2 }"),
          (1 + X, 1 + 2 * Y, 0.5)),
         ("without a projector", shown("ProjectedTextureCoordinate { }"), (S, T, 0)),
-        ("a point light is none", one("PointLight { }"), None),
-    ]
-    for name, content, expected in cases:
-        got = draw(content)
-        if expected:
-            known = [i for i, c in enumerate(expected) if c is not None]
-            suite.close(name, [got[i] for i in known],
-                        [seen(expected[i : i + 1])[0] for i in known], 2e-3)
-
+    ])
     # a picture: divided by q for each fragment, in perspective
     image = ("PixelTexture { repeatS FALSE repeatT FALSE image 2 1 3 0xFF0000 0x0000FF textureProperties "
              "TextureProperties { magnificationFilter \"NEAREST\" minificationFilter \"NEAREST\" } }")
-    got = [draw(one((spot % "").replace("location 0 0 2", f"location {x} 0 2"), texture=image))
-           for x in (-0.5, 0)]
+    row = Row(suite)
+    for x in (-0.5, 0):
+        row.add(one((spot % "").replace("location 0 0 2", f"location {x} 0 2"), texture=image))
+    row.add(one("PointLight { }"))
+    got = row.draw()
     suite.close("a picture: its right half", got[0], (0, 0, 1, 1), 2e-3)
     suite.close("its left half", got[1], (1, 0, 0, 1), 2e-3)
 
+
+@suite.case
+def projected_in_the_world():
+    "a projector that stands in the field alone has world coordinates, and is fitted to the scene"
+    for name, light, expected in (
+            ("fitted", "DirectionalLight { }", (0.5 + X / 1.02, 0.5 + Y / 1.02, 0.5)),
+            ("given", "DirectionalLight { projectionLocation 1 0 1 projectionRectangle -2 -2 2 2 "
+             "projectionNear .5 projectionFar 1.5 }", (0.5 + (X - 1) / 4, 0.5 + Y / 4, 0.5))):
+        text = front_scene(shown(f"ProjectedTextureCoordinate {{ projector {light} }}"))
+        suite.close(name, suite.probe(text, [(3, 3)], size="8x8")[0], seen(expected), 2e-3)
 
 suite.run()
