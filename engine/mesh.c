@@ -113,6 +113,7 @@ void plr_mesh_free(plr_mesh *mesh) {
         free(mesh->tex_coords[unit]);
     free(mesh->plane_coords);
     free(mesh->box_coords);
+    free(mesh->tangents);
     free(mesh->colors);
     free(mesh->fog_coords);
     free(mesh->line_distances);

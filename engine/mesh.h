@@ -42,7 +42,7 @@ typedef struct plr_mesh {
     bool two_sided; /* solid FALSE */
     bool clockwise; /* ccw FALSE: front faces are wound clockwise */
     float bounds[2][3];
-    float *plane_coords, *box_coords; /* of the functions below, once asked for */
+    float *plane_coords, *box_coords, *tangents; /* of the functions below, once asked for */
 } plr_mesh;
 
 /* Builds the mesh of a geometry node. Faults (bad-geometry) are reported at the node or field; what
@@ -66,5 +66,9 @@ const float *plr_mesh_tex_coords(const plr_mesh *mesh, unsigned unit);
  * default for 3D textures, and BOUNDS3D. A side of length 0 has 0 everywhere. */
 const float *plr_mesh_plane_coords(plr_mesh *mesh);
 const float *plr_mesh_box_coords(plr_mesh *mesh);
+/* The directions in which s of unit 0 grows on the surface, at length 1, and 1 or -1: the direction
+ * of t is that times N x T. 4 each, made at the first call, owned by the mesh; NULL without memory,
+ * for lines and points. */
+const float *plr_mesh_tangents(plr_mesh *mesh);
 
 #endif

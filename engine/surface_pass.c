@@ -67,6 +67,8 @@ static const float *attribute_data(plr_mesh *mesh, const char *name, int *compon
     *components = 4;
     if (sscanf(name, "castle_MultiTexCoord%u", &unit) == 1)
         return plr_mesh_tex_coords(mesh, unit);
+    if (strcmp(name, "castle_Tangent") == 0)
+        return plr_mesh_tangents(mesh);
     if (strcmp(name, "plugray_BoxCoord") == 0)
         return plr_mesh_box_coords(mesh);
     if (strcmp(name, "plugray_PlaneCoord") == 0)

@@ -5,6 +5,7 @@
 #ifdef PLUGRAY_VERTEX
 in vec4 castle_Vertex;
 in vec3 castle_Normal;
+in vec4 castle_Tangent;
 in vec4 castle_ColorPerVertex;
 in vec4 castle_MultiTexCoord0;
 in vec4 castle_MultiTexCoord1;

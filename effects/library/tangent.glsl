@@ -16,4 +16,10 @@ mat3 tangent_frame(vec3 place_eye, vec2 tex_coord, vec3 normal_eye) {
     vec3 across = cross(normal_eye, t);
     return mat3(t, dot(across, b) < 0.0 ? -across : across, normal_eye);
 }
+
+/* The same from a tangent at the vertices: xyz, and in w the side of the other one (glTF 2.0 3.7.2.1). */
+mat3 given_tangent_frame(vec4 tangent_eye, vec3 normal_eye) {
+    vec3 t = unit_or_zero(tangent_eye.xyz - normal_eye * dot(normal_eye, tangent_eye.xyz));
+    return mat3(t, tangent_eye.w * cross(normal_eye, t), normal_eye);
+}
 #endif

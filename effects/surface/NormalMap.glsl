@@ -22,9 +22,17 @@
 
 uniform float normalScale = 1.0;
 
+#if PLUG_USED(tangent_object_space)
+in vec4 tangent_eye;
+#endif
+
 void PLUG_fragment_eye_space(const in vec4 vertex_eye, inout vec3 normal_eye) {
     vec4 value = vec4(0.5, 0.5, 1.0, 1.0);
+#if PLUG_USED(tangent_object_space)
+    mat3 frame = given_tangent_frame(tangent_eye, normal_eye);
+#else
     mat3 frame = tangent_frame(vertex_eye.xyz, TEX_COORD.st / TEX_COORD.q, normal_eye);
+#endif
     /* PLUG: texture_value (value) */
     vec3 bump = (2.0 * value.rgb - 1.0) * vec3(normalScale, normalScale, 1.0);
     bump = unit_or_zero(frame * bump);

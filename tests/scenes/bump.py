@@ -112,7 +112,7 @@ def with_effects():
     check_all((
         ("after", LIGHT + quad(WHITE, flip, geometry=square()), mirrored),
         ("moved vertices", LIGHT + quad(WHITE, turn, geometry=square()),
-         lambert((0, 1, 0), (-1, 0, 0))),
+         lambert((0, -1, 0), (1, 0, 0))),
     ))
 
 
@@ -174,6 +174,19 @@ def parallax_shadow():
     suite.check("as long as the step is high", abs(dark - 8) <= 1, row)
     suite.check("none where light falls straight", all(v > 0.9 for v in
                 [drawn("0 0 -1", 0.25).at(x, 16)[0] for x in (2, 14, 17, 30)]))
+
+
+@suite.case
+def tangent_object_space():
+    "who asks for tangents gets them along s, and the normal map follows what he makes of them"
+    same = effect("void PLUG_tangent_object_space(inout vec4 tangent) { tangent.xyz *= 2.0; }", kind="VERTEX")
+    turn = effect("void PLUG_tangent_object_space(inout vec4 tangent) { tangent.xyz = vec3(0, 1, 0); }", kind="VERTEX")
+    mirrored = effect("void PLUG_tangent_object_space(inout vec4 tangent) { tangent.w = -tangent.w; }", kind="VERTEX")
+    coords = "0 0, 0 1, -1 1, -1 0"  # s grows against y, t along x
+    check_all((("kept", LIGHT + quad(WHITE, same, geometry=square()), lambert()),
+               ("of turned coordinates", LIGHT + quad(WHITE, same, geometry=square(coords)), lambert((0, -1, 0), (1, 0, 0))),
+               ("turned", LIGHT + quad(WHITE, turn, geometry=square()), lambert((0, 1, 0), (-1, 0, 0))),
+               ("mirrored", LIGHT + quad(WHITE, mirrored, geometry=square()), lambert((1, 0, 0), (0, -1, 0)))))
 
 
 @suite.case
