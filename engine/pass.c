@@ -4,6 +4,8 @@
 static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light, size_t attached,
                       size_t volume) {
     const char *type = light->node ? plr_node_type(light->node) : "DirectionalLight";
+    bool ambient = light->node && plr_node_number(light->node, "ambientIntensity") != 0;
+    const plr_define no_ambient = {"NO_AMBIENT", "1"};
     plr_recipe_builtin(&view->kitchen, recipe, plr_arena_format(&view->arena, "lights/%s", type),
                        type,
                        (plr_binding){.node = light->node,
@@ -12,7 +14,7 @@ static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light
                                      .in_eye_space = light->in_eye_space,
                                      .volume = volume,
                                      .is_light = true},
-                       attached, NULL, 0);
+                       attached, &no_ambient, ambient ? 0 : 1);
 }
 
 void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,

@@ -15,9 +15,10 @@ vec3 direction_to_viewer(vec4 vertex_eye) {
  * the light, L; H lies between L and the direction to the viewer. A zero normal reflects nothing. */
 vec3 phong_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
     vec3 reflected = material.diffuse * max(dot(normal_eye, light_dir), 0.0);
-    vec3 between = unit_or_zero(light_dir + direction_to_viewer(vertex_eye));
-    float n_dot_h = dot(normal_eye, between);
-    float shine = n_dot_h > 0.0 ? pow(n_dot_h, material.shininess) : 0.0;
+    vec3 between = light_dir + direction_to_viewer(vertex_eye);
+    float n_dot_h = dot(normal_eye, between) * inversesqrt(max(dot(between, between), 1e-37));
+    /* pow is not defined where both are 0 */
+    float shine = pow(max(n_dot_h, 0.0), max(material.shininess, 1e-30));
     return reflected + shine * material.specular;
 }
 

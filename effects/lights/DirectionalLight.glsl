@@ -16,7 +16,9 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
-    lit.rgb += scale * light_color *
-               (ambientIntensity * material.ambient +
-                intensity * material_reflection(material, vertex_eye, normal_eye, light_dir));
+    vec3 reflected = intensity * material_reflection(material, vertex_eye, normal_eye, light_dir);
+#if !defined(NO_AMBIENT)
+    reflected += ambientIntensity * material.ambient;
+#endif
+    lit.rgb += scale * light_color * reflected;
 }

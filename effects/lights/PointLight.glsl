@@ -16,13 +16,16 @@ uniform vec3 light_location_eye = vec3(0.0);
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
     vec3 to_light = light_location_eye - vertex_eye.xyz;
-    vec3 light_dir = unit_or_zero(to_light);
+    float far = length(to_light);
+    vec3 light_dir = to_light / max(far, 1e-18);
     float scale = 1.0;
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
-    scale *= light_attenuation(lengthToNode * length(to_light), attenuation, radius);
+    scale *= light_attenuation(lengthToNode * far, attenuation, radius);
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
-    lit.rgb += scale * light_color *
-               (ambientIntensity * material.ambient +
-                intensity * material_reflection(material, vertex_eye, normal_eye, light_dir));
+    vec3 reflected = intensity * material_reflection(material, vertex_eye, normal_eye, light_dir);
+#if !defined(NO_AMBIENT)
+    reflected += ambientIntensity * material.ambient;
+#endif
+    lit.rgb += scale * light_color * reflected;
 }
