@@ -143,6 +143,7 @@ static bool is_light(const plr_recipe *recipe, size_t index) {
 void plr_recipe_shadows(plr_view *view, plr_recipe *recipe, size_t from, size_t volume,
                         const plr_node *appearance) {
     size_t count = recipe->effects.count;
+    const plr_define surface = {"SURFACE", volume == PLR_NO_EFFECT ? "1" : "0"};
     for (size_t i = from; i < count; i++) {
         plr_binding binding = recipe->bindings.items[i];
         plr_shadow *shadow =
@@ -154,7 +155,7 @@ void plr_recipe_shadows(plr_view *view, plr_recipe *recipe, size_t from, size_t 
         binding.volume = volume;
         plr_recipe_builtin(&view->kitchen, recipe,
                            cube ? "shadows/ShadowCube" : "shadows/ShadowMap", "GeneratedShadowMap",
-                           binding, i + 1, NULL, 0);
+                           binding, i + 1, &surface, 1);
     }
 }
 

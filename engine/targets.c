@@ -48,7 +48,12 @@ static const plr_viewpoint *find_viewpoint(plr_view *view, const plr_world *worl
                 return &flats[f]->viewpoints.items[i];
     plr_flat *alone = PLR_NEW(&view->arena, plr_flat);
     plr_flatten_node(&view->arena, view->scene, node, &(plr_flat){0}, alone, diags);
-    return alone->viewpoints.count ? &alone->viewpoints.items[0] : NULL;
+    if (alone->viewpoints.count)
+        return &alone->viewpoints.items[0];
+    plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(node),
+                  "%s is no viewpoint to draw from; that of the picture is taken",
+                  plr_node_type(node));
+    return NULL;
 }
 
 static void prepare_rendered(plr_view *view, plr_target *target, plr_diags *diags) {

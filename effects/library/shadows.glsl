@@ -14,3 +14,11 @@ vec3 shadow_shift(const in vec3 normal, const in vec3 axis, const in vec3 light_
     float cosine = dot(normal, axis);
     return shadow_reach * sqrt(max(1.0 - cosine * cosine, 0.0)) * normal + 0.5 * light_dir;
 }
+
+/* The plane of the triangle at this fragment, turned to the light: what a surface must not shadow
+ * itself with is its shape, not the normals that light it. */
+vec3 shadow_plane(const in vec4 vertex_eye, const in vec3 light_dir) {
+    vec3 place = vertex_eye.xyz / vertex_eye.w;
+    vec3 normal = unit_or_zero(cross(dFdx(place), dFdy(place)));
+    return dot(normal, light_dir) < 0.0 ? -normal : normal;
+}

@@ -25,13 +25,18 @@ float lit_at(vec3 from_light) {
 
 void PLUG_light_scale(inout float scale, const in vec3 normal_eye, const in vec3 light_dir,
                       const in vec4 vertex_eye) {
+#if SURFACE
+    vec3 normal = shadow_plane(vertex_eye, light_dir);
+#else
+    vec3 normal = normal_eye;
+#endif
     mat3 turn = mat3(eyeToShadow);
     vec3 place = (eyeToShadow * vertex_eye).xyz / vertex_eye.w;
     vec3 axis = face_axis(place);
     float texel = shadowTexel * abs(dot(place, axis));
     if (!(texel > 0.0))
         return;
-    place += shadow_shift(turn * normal_eye, axis, turn * light_dir) * (shadowOffset * texel);
+    place += shadow_shift(turn * normal, axis, turn * light_dir) * (shadowOffset * texel);
     vec3 right = axis.zxy * texel, above = axis.yzx * texel;
     float lit = 0.0;
     for (int y = -1; y <= 1; y++)

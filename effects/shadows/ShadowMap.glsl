@@ -2,7 +2,8 @@
  * Shadows on Curved Surfaces, SIGGRAPH 1978. Filtered as W. Reeves, D. Salesin and R. Cook say
  * (Rendering Antialiased Shadows with Depth Maps, SIGGRAPH 1987): 3 x 3 comparisons, each of them
  * interpolated. Attached to the light, whose contribution it scales: by 1 - shadowIntensity in full
- * shadow (ISO/IEC 19775-1 V4 17.3.1). What is beside the map is lit. */
+ * shadow (ISO/IEC 19775-1 V4 17.3.1). What is beside the map is lit. SURFACE is 0 in volumes, where
+ * there are no triangles. */
 
 uniform sampler2DShadow shadowMap;
 uniform mat4 eyeToShadow = mat4(1.0);   /* to 0..1 in the map, by w */
@@ -14,10 +15,15 @@ uniform float shadowIntensity = 1.0;
 
 void PLUG_light_scale(inout float scale, const in vec3 normal_eye, const in vec3 light_dir,
                       const in vec4 vertex_eye) {
+#if SURFACE
+    vec3 normal = shadow_plane(vertex_eye, light_dir);
+#else
+    vec3 normal = normal_eye;
+#endif
     vec4 place = eyeToShadow * vertex_eye;
     if (!(place.w > 0.0))
         return;
-    vec3 shift = shadow_shift(normal_eye, shadowAxis, light_dir);
+    vec3 shift = shadow_shift(normal, shadowAxis, light_dir);
     place += eyeToShadow * vec4(shift * (shadowOffset * shadowTexel * place.w), 0.0);
     vec3 at = place.xyz / place.w;
     /* beyond the farthest caster the map's far plane still shadows */

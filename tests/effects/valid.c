@@ -258,6 +258,8 @@ static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
     {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}};
+static const plr_define on_surface[] = {{"SURFACE", "1"}};
+static const plr_define in_volume[] = {{"SURFACE", "0"}};
 static const plr_define top_image[] = {{"FACE", "4"}, {"HAS_IMAGE", "1"}};
 static const plr_define left_shader[] = {{"FACE", "2"}, {"HAS_IMAGE", "0"}};
 static const plr_define with_ground[] = {{"HAS_GROUND", "1"}};
@@ -497,9 +499,9 @@ static const recipe recipes[] = {
      "surface/surface",
      {{.path = "surface/Material"},
       {.path = "lights/DirectionalLight"},
-      {.path = "shadows/ShadowMap", .attached = 2},
+      {.path = "shadows/ShadowMap", DEFINES(on_surface), .attached = 2},
       {.path = "lights/PointLight"},
-      {.path = "shadows/ShadowCube", .attached = 4}},
+      {.path = "shadows/ShadowCube", DEFINES(on_surface), .attached = 4}},
      DEFINES(plain),
      .present = "sampler2DShadow samplerCubeShadow shadowIntensity"},
     {"shadow in a volume",
@@ -509,9 +511,10 @@ static const recipe recipes[] = {
       {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style)},
       {.path = "volume/Composite"},
       {.path = "lights/DirectionalLight"},
-      {.path = "shadows/ShadowMap", .attached = 5}},
+      {.path = "shadows/ShadowMap", DEFINES(in_volume), .attached = 5}},
      DEFINES(one_volume),
-     .present = "sampler2DShadow"},
+     .present = "sampler2DShadow",
+     .absent = "dFdx"},
     {"depths of a shadow map",
      "shadows/depth",
      {{.path = NULL}},

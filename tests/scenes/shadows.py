@@ -230,6 +230,20 @@ def no_acne():
 
 
 @suite.case
+def bent_normals():
+    "normals that an effect bends to the light do not bend the surface: still no shadow on itself"
+    bend = """effects Effect { parts EffectPart { type "FRAGMENT" url "data:text/plain,
+    void PLUG_fragment_eye_space(const vec4 vertex_eye, inout vec3 normal_eye)
+    { normal_eye = direction_world_to_eye_space(normalize(vec3(-1.0, 0.1, 0.0))); }" } }"""
+    for kind in ("DirectionalLight { direction 1 -0.1 0", "PointLight { location -50 5.5 0"):
+        light = kind + " shadows TRUE shadowMapSize 64 }"
+        text = scene(light, floor(effects=bend), "Transform { translation 0 -3 0 children Q }".replace("Q", floor()))
+        picture = suite.picture(text, size="64x64")
+        darkest = min(picture.values[1::4])
+        suite.check(kind.split()[0], darkest > 0.98, darkest)
+
+
+@suite.case
 def no_acne_around_a_point():
     "nor in the light of a point or a cone, at any tilt"
     for light in ("PointLight { location 1 2 0.5", "SpotLight { location -3 3 0 direction 2 -1 0 cutOffAngle 1 beamWidth 1"):
