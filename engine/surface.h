@@ -41,6 +41,8 @@ plr_node *plr_shape_material_node(const plr_shape *shape);
 
 void plr_shape_material(plr_shape *shape);
 void plr_shape_textures(plr_shape *shape);
+/* Instead, of a shape with an author's complete shader, where that shader takes them. */
+void plr_shape_complete_textures(plr_shape *shape);
 /* Normals and heights from textures. */
 void plr_shape_bumps(plr_shape *shape);
 void plr_shape_lights(plr_shape *shape);

@@ -129,7 +129,7 @@ static const char *source_of(plr_shape *shape, const plr_channel *channel, const
     if (strcmp(type, "TextureCoordinateGenerator") != 0)
         return "UNIT";
     const struct mode *mode = mode_of(shape, channel->node);
-    *reflects = mode->reflects && shape->lit;
+    *reflects = mode->reflects && shape->lit && !shape->recipe->base_node;
     if (strcmp(mode->name, "BOUNDS") == 0)
         return channel->dimensions == 3 || channel->dimensions == 6 ? "BOX" : "PLANE";
     if (strncmp(mode->name, "BOUNDS", 6) != 0)

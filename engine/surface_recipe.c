@@ -70,6 +70,7 @@ static void compose_standard(plr_shape *shape) {
     *shape->recipe =
         (plr_recipe){.base = *plr_catalog_units(shape->view->kitchen.catalog, "surface/surface")};
     define_surface(shape);
+    shape->channel_count = 0;
     for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients; i++)
         ingredients[i](shape);
     compose(shape);
@@ -88,6 +89,8 @@ static bool compose_shader(plr_shape *shape) {
             continue;
         shape->recipe->base_node = shader;
         define_surface(shape);
+        shape->channel_count = 0;
+        plr_shape_complete_textures(shape);
         compose(shape);
         if (shape->model->pass.built)
             return true;

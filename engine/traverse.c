@@ -238,6 +238,11 @@ static void not_drawn(walk *w, plr_node *node, const plr_matrix *matrix) {
                   plr_node_type(node));
 }
 
+static void visit_screen_effect(walk *w, plr_node *node, const plr_matrix *matrix) {
+    if (plr_node_bool(node, "enabled"))
+        not_drawn(w, node, matrix);
+}
+
 /* By type or abstract type; the first that fits counts. */
 static const struct {
     const char *type;
@@ -261,6 +266,7 @@ static const struct {
     {"LocalFog", visit_local_fog},
     {"ClipPlane", visit_clip_plane},
     {"ToneMapping", visit_tone_mapping},
+    {"ScreenEffect", visit_screen_effect},
 };
 
 static bool is_too_deep(walk *w, const plr_node *node) {

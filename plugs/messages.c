@@ -202,6 +202,8 @@ void plr_say_unplaced(plr_linking *l, const plr_unit *unit, plr_function *functi
         return;
     }
     unsigned stages = stages_of(l, function->plug, sockets);
+    if (known & here && l->desc->effects[function->effect].only_attached)
+        return; /* the instance has it, where it is in use */
     if (stages & here) {
         const plr_socket *socket = sockets[unit->scope->stage];
         plr_say(l, PLR_CODE_UNKNOWN_PLUG, place,
