@@ -7,8 +7,8 @@ vec3 unit_or_zero(vec3 direction) {
 
 /* From a point in eye space to the viewer, length 1; in parallel projection the same for all. */
 vec3 direction_to_viewer(vec4 vertex_eye) {
-    return castle_ProjectionMatrix[3][3] == 0.0 ? unit_or_zero(-vertex_eye.xyz)
-                                                : vec3(0.0, 0.0, 1.0);
+    float parallel = castle_ProjectionMatrix[3][3]; /* 1, or 0 in perspective */
+    return unit_or_zero(vec3(0.0, 0.0, parallel) - (1.0 - parallel) * vertex_eye.xyz);
 }
 
 /* ISO/IEC 19775-1 V4 17.2.2: diffuse_i + specular_i without I_i. `light_dir` is the unit vector to
