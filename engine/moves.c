@@ -3,6 +3,7 @@
 #include "engine/changes.h"
 
 #include "engine/targets.h"
+#include "engine/update.h"
 
 /* ---- Is it the same? ---- */
 
@@ -127,8 +128,7 @@ static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix 
         return false;
     move_flat(&view->flat, &flat);
     move_parts(view);
-    const plr_viewpoint *chosen = plr_flat_viewpoint(&view->flat, view->desc.viewpoint);
-    view->viewpoint = plr_flat_bound(&view->flat, chosen);
+    view->viewpoint = plr_flat_bound(&view->flat, plr_view_chosen(view, &view->flat));
     return true;
 }
 

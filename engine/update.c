@@ -8,6 +8,11 @@
 
 /* ---- The scene at a time ---- */
 
+const plr_viewpoint *plr_view_chosen(const plr_view *view, const plr_flat *flat) {
+    const plr_viewpoint *chosen = plr_flat_viewpoint(flat, view->desc.viewpoint);
+    return chosen || !view->made ? chosen : plr_flat_viewpoint(flat, NULL);
+}
+
 /* Depths do not matter to sensors. */
 static plr_viewer viewer_at(const plr_viewpoint *viewpoint, const plr_node *bound, double aspect) {
     plr_viewer viewer = {.viewpoint = bound};
@@ -18,6 +23,15 @@ static plr_viewer viewer_at(const plr_viewpoint *viewpoint, const plr_node *boun
     memcpy(viewer.world_to_eye, view.m, sizeof view.m);
     memcpy(viewer.projection, projection.m, sizeof projection.m);
     return viewer;
+}
+
+/* Where the first look comes from, for any time the same: as the file has it, or the first
+ * viewpoint where that is hidden. */
+static void find_first(plr_view *view, plr_arena *arena) {
+    plr_flat flat;
+    plr_flatten(arena, view->scene, NULL, &flat, NULL);
+    const plr_viewpoint *chosen = plr_view_chosen(view, &flat);
+    view->first = chosen ? *chosen : *plr_flat_viewpoint(&flat, NULL);
 }
 
 /* What happens in the scene may move the viewer, or put another one in his place, and that may be
@@ -34,24 +48,26 @@ bool plr_view_live(plr_view *view, plr_matrix *eye_to_world, plr_diags *diags) {
         longjmp(*view->arena.out_of_memory, 1);
     }
     plr_flat flat;
-    plr_flatten(&arena, view->scene, NULL, &flat, NULL);
-    const plr_viewpoint *chosen = plr_flat_viewpoint(&flat, view->desc.viewpoint);
-    const plr_viewpoint *used = chosen;
-    bool same = !chosen;
+    if (!view->made)
+        find_first(view, &arena);
+    plr_viewpoint used = view->first;
+    const plr_node *asked = used.node;
+    const plr_viewpoint *chosen = NULL;
+    bool same = false;
     for (int i = 0; i < LOOKS && !same; i++) {
-        *eye_to_world = used->to_world;
-        plr_viewer viewer = viewer_at(used, chosen->node, view->desc.aspect);
+        plr_viewer viewer = viewer_at(&used, asked, view->desc.aspect);
         plr_scene_set_time(view->scene, view->desc.time, &viewer, diags);
-        const plr_node *node = used->node, *first = chosen->node;
-        plr_flatten(&arena, view->scene, eye_to_world, &flat, NULL);
-        chosen = plr_flat_viewpoint(&flat, view->desc.viewpoint);
-        used = chosen ? plr_flat_bound(&flat, chosen) : NULL;
-        same = !used || chosen->node != first ||
-               (used->node == node &&
-                memcmp(used->to_world.m, eye_to_world->m, sizeof used->to_world.m) == 0);
-        if (used)
-            *eye_to_world = used->to_world;
+        plr_flatten(&arena, view->scene, &used.to_world, &flat, NULL);
+        chosen = plr_view_chosen(view, &flat);
+        if (!chosen)
+            break;
+        const plr_viewpoint *now = plr_flat_bound(&flat, chosen);
+        same = now->node == used.node && chosen->node == asked &&
+               memcmp(now->to_world.m, used.to_world.m, sizeof used.to_world.m) == 0;
+        used = *now;
+        asked = chosen->node;
     }
+    *eye_to_world = used.to_world;
     plr_arena_finish(&arena);
     return chosen != NULL;
 }

@@ -4,6 +4,9 @@
 
 #include "engine/view.h"
 
+/* The viewpoint that is asked for. Once the view is made, another one stands in where that one is
+ * hidden for a time; before, there is NULL. */
+const plr_viewpoint *plr_view_chosen(const plr_view *view, const plr_flat *flat);
 /* Brings the scene to the view's time, as its viewpoint sees it; where the eye is comes out. False
  * if there is no viewpoint as asked for. */
 bool plr_view_live(plr_view *view, plr_matrix *eye_to_world, plr_diags *diags);

@@ -48,7 +48,7 @@ static void upload(plr_view *view) {
 
 bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags) {
     plr_flatten(&view->arena, view->scene, eye_to_world, &view->flat, diags);
-    view->viewpoint = plr_flat_viewpoint(&view->flat, view->desc.viewpoint);
+    view->viewpoint = plr_view_chosen(view, &view->flat);
     if (!view->viewpoint) {
         plr_diags_add(diags, PLR_CODE_UNKNOWN_DEF, (plr_place){0}, "there is no viewpoint '%s'",
                       view->desc.viewpoint);
@@ -61,6 +61,7 @@ bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *di
     plr_unreached_report(&view->composer);
     plr_view_note_textures(view);
     view->revision = plr_scene_revision(view->scene);
+    view->made = true;
     plr_phase start = plr_clock();
     if (view->engine)
         upload(view);

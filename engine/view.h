@@ -126,11 +126,13 @@ typedef struct plr_projection {
 } plr_projection;
 
 struct plr_view {
-    plr_arena arena;    /* of worlds: renewed when the scene changes */
-    plr_arena lasting;  /* of what is kept then: textures, programs, sources */
-    uint64_t revision;  /* of the scene, when its worlds were made */
-    int asked_dialect;  /* as in plr_view_desc, which then has what came of it */
-    plr_engine *engine; /* NULL: nothing is drawn, only checked */
+    plr_arena arena;     /* of worlds: renewed when the scene changes */
+    plr_arena lasting;   /* of what is kept then: textures, programs, sources */
+    uint64_t revision;   /* of the scene, when its worlds were made */
+    int asked_dialect;   /* as in plr_view_desc, which then has what came of it */
+    bool made;           /* once; from then on it is updated */
+    plr_viewpoint first; /* where the first look at a time comes from */
+    plr_engine *engine;  /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;
     plr_scene *scene;
     plr_view_desc desc;

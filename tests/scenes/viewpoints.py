@@ -59,6 +59,21 @@ def moved_viewpoint():
 
 
 @suite.case
+def hidden_viewpoint():
+    "where the viewpoint that is asked for is hidden for a time, the first one stands in"
+    text = scene(NO_HEADLIGHT, "DEF A OrthoViewpoint { position 0 0 10 fieldOfView -.5 -.5 .5 .5 }\n"
+                 "DEF S Switch { whichChoice 0 children DEF B OrthoViewpoint { position 5 0 10 "
+                 "fieldOfView -.5 -.5 .5 .5 } }\n", CLOCK,
+                 "DEF Q IntegerSequencer { key [0 .25 .5] keyValue [0 -1 0] } ROUTE "
+                 "T.fraction_changed TO Q.set_fraction ROUTE Q.value_changed TO S.whichChoice\n",
+                 colored("1 0 0"), "Transform { translation 5 0 0 children ", colored("0 1 0"), "}\n")
+    result = suite.render(text, "--probe", "0,0", "--frames", "3", "--fps", "1", "--viewpoint", "B",
+                          size="1x1")
+    got = [[float(w) for w in line.split()] for line in result.output.splitlines()]
+    suite.close("", sum(got, []), GREEN + RED + GREEN)
+
+
+@suite.case
 def scaled_around():
     "scale around a viewpoint moves it and does not stretch what it sees"
     text = scene(NO_HEADLIGHT, "Transform { scale 2 2 2 children OrthoViewpoint { position 0 0 10 "
