@@ -94,3 +94,21 @@ void plr_shape_surroundings(plr_shape *shape) {
     add_fog(shape);
     add_clip_planes(shape);
 }
+
+/* ---- Volumes ---- */
+
+static void tell_not_in_volumes(const plr_node *node, plr_diags *diags) {
+    if (node)
+        plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(node),
+                      "%s changes surfaces alone, not the volumes in its reach yet",
+                      plr_node_type(node));
+}
+
+void plr_volume_surroundings(const plr_view *view, const plr_scope *scope, plr_diags *diags) {
+    tell_not_in_volumes(view->flat.fog.node, diags);
+    for (; scope; scope = scope->outer) {
+        tell_not_in_volumes(scope->fog.node, diags);
+        for (size_t i = 0; i < scope->clip_planes.count; i++)
+            tell_not_in_volumes(scope->clip_planes.items[i].node, diags);
+    }
+}

@@ -175,6 +175,8 @@ double plr_volume_steepness(plr_view *view, const plr_volume_state *state);
 /* Makes the program of background->node; nothing where a clear colour will do. */
 void plr_background_prepare(plr_view *view, plr_background *background);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
+/* Tells of fog and clip planes that reach a volume, which are not drawn in volumes yet. */
+void plr_volume_surroundings(const plr_view *view, const plr_scope *scope, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
 /* The lights that reach a leaf, as built-in effects. */

@@ -443,6 +443,8 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
     }
     make_default_ramp(view);
+    for (size_t i = 0; i < pass->count; i++)
+        plr_volume_surroundings(view, pass->leaves[i]->scope, diags);
 }
 
 /* ---- Drawing ---- */
