@@ -137,6 +137,27 @@ def moved_vertices():
 
 
 @suite.case
+def in_time():
+    "shadows follow lights and shapes in time, in one picture as in a row of them"
+    mover = "DEF M Transform { children C }".replace("C", caster())
+    turner = "DEF R Transform { children L }".replace("L", SLANTED.replace("DirectionalLight {", "DirectionalLight { global TRUE"))
+    clock = """DEF T TimeSensor { cycleInterval 4 loop TRUE }
+    DEF P PositionInterpolator { key [ 0 1 ] keyValue [ 0 0 0, 0 0 4 ] }
+    DEF O OrientationInterpolator { key [ 0 0.25 0.5 1 ] keyValue [ 0 1 0 0, 0 1 0 0, 0 1 0 3.14159265, 0 1 0 3.14159265 ] }
+    ROUTE T.fraction_changed TO P.set_fraction ROUTE P.value_changed TO M.translation
+    ROUTE T.fraction_changed TO O.set_fraction ROUTE O.value_changed TO R.rotation\n"""
+    text = scene(turner, floor(), mover, clock)
+    places = [(1, 0), (1, 1), (-1, 2)]
+    expected = [[0, HALF, HALF], [HALF, 0, HALF], [HALF, HALF, 0]]
+    for t in range(3):
+        suite.close(f"at {t} s", greens(text, places, "--time", str(t)), expected[t])
+    where = [word for x, z in places for word in ("--probe", "%d,%d" % pixel(x, z))]
+    result = suite.render(text, *where, "--frames", "3", "--fps", "1", size="128x128")
+    got = [float(line.split()[1]) for line in result.output.splitlines()]
+    suite.close("as frames", got, sum(expected, []))
+
+
+@suite.case
 def beside_the_map():
     "what is beside a light's map is lit"
     light = """DirectionalLight { direction 0 -1 0 shadows TRUE up 0 0 -1 projectionLocation 0 5 0

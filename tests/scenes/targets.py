@@ -189,6 +189,20 @@ def effects_and_samplers():
 
 
 @suite.case
+def in_time():
+    "what textures show moves in time, and what is drawn once is as it is at that time"
+    mover = "DEF M Transform { children Q }".replace("Q", aside(plain("1 1 1", 0.5)))
+    clock = """DEF T TimeSensor { cycleInterval 4 loop TRUE } DEF P PositionInterpolator { key [ 0 1 ] keyValue [ -0.5 -0.5 0, -0.5 3.5 0 ] }
+    ROUTE T.fraction_changed TO P.set_fraction ROUTE P.value_changed TO M.translation\n"""
+    for update in ("ALWAYS", "NEXT_FRAME_ONLY"):
+        text = START + screen(rendered(ASIDE).replace("ALWAYS", update)) + mover + clock
+        where = [word for x, y in CORNERS for word in ("--probe", f"{x},{y}")]
+        lines = suite.render(text, *where, "--frames", "2", "--fps", "1").output.split("\n")
+        got = [float(line.split()[0]) for line in lines if line]
+        suite.close(update, got, [1, 0, 0, 0, 0, 0, 1, 0])
+
+
+@suite.case
 def signals():
     "viewing, projection and rendering go by ROUTEs to fields of effects"
     seen = """material UnlitMaterial { } effects DEF E Effect { inputOutput SFMatrix4f m 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1
