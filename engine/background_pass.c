@@ -71,8 +71,9 @@ static void add_face(plr_view *view, plr_background *background, int face) {
 static bool is_plain(const plr_view *view, const plr_node *node) {
     const plr_field *sky = plr_node_field(node, "skyColor");
     const plr_field *ground = plr_node_field(node, "groundColor");
+    const plr_field *effects = plr_node_field(node, "effects");
     bool plain = (!sky || sky->count < 2) && (!ground || !ground->count) &&
-                 !plr_node_is(node, "ImageBackground");
+                 (!effects || !effects->count) && !plr_node_is(node, "ImageBackground");
     for (int face = 0; plain && face < 6; face++) {
         const plr_field *urls =
             plr_node_field(node, plr_arena_format(view->kitchen.arena, "%sUrl", faces[face]));
@@ -111,6 +112,7 @@ void plr_background_prepare(plr_view *view, plr_background *background) {
         add_sky(view, background);
     }
     plr_recipe_attached_authors(k, &pass->recipe, "X3DTextureNode");
+    plr_recipe_author_list(k, &pass->recipe, node, 0, PLR_NO_EFFECT);
     pass->built = plr_compose_program(&view->composer, &pass->recipe, "background", &pass->program);
 }
 
