@@ -112,7 +112,7 @@ def with_effects():
     check_all((
         ("after", LIGHT + quad(WHITE, flip, geometry=square()), mirrored),
         ("moved vertices", LIGHT + quad(WHITE, turn, geometry=square()),
-         lambert((0, -1, 0), (1, 0, 0))),
+         lambert((0, 1, 0), (-1, 0, 0))),
     ))
 
 
