@@ -340,6 +340,22 @@ def authors_comparison():
 
 
 @suite.case
+def on_volumes():
+    "lit volumes receive shadows of shapes"
+    volume = """VolumeData { dimensions 2 2 2 voxels PixelTexture3D { image [ 1 2 2 2 200 200 50 50 200 200 50 50 ] }
+    renderStyle ShadedVolumeStyle { lighting TRUE material Material { ambientIntensity 0 diffuseColor 1 1 1 } } }\n"""
+    cover = quad("-3 3 3, 0 3 3, 0 3 -3, -3 3 -3")
+    front = "OrthoViewpoint { fieldOfView [ -1 -1 1 1 ] }\n"
+    light = "DirectionalLight { direction 0 -1 0 shadows TRUE }\n"
+    for lights, name in ((light, "shadow"), (light.replace("shadows TRUE", ""), "light")):
+        text = scene(lights, cover, volume).replace(TOP, front)
+        left, right = suite.probe(text, [(4, 8), (11, 8)])
+        dark = 0 if name == "shadow" else right[0]
+        suite.close(f"left, {name}", left[:3], [dark] * 3, 1e-3)
+        suite.check(f"right, {name}", right[0] > 0.1 and left[3] > 0.1, left, right)
+
+
+@suite.case
 def pays_for_what_it_uses():
     "without shadows there is no shadow code, and nothing is drawn for them"
     plain = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": scene("DirectionalLight { }", floor(), caster())})
