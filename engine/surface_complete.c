@@ -40,13 +40,13 @@ static bool offers(const plr_recipe *recipe, plr_stage stage, const char *plug) 
     return false;
 }
 
+/* Coordinates also where the shader offers no place for colours: it may read castle_TexCoord0. */
 void plr_shape_complete_textures(plr_shape *shape) {
     const plr_recipe *recipe = shape->recipe;
-    bool named = offers(recipe, PLR_FRAGMENT, "main_texture_apply");
     if (!says_declarations(recipe, PLR_VERTEX) || !says_declarations(recipe, PLR_FRAGMENT) ||
-        !offers(recipe, PLR_VERTEX, "vertex_eye_space") ||
-        (!named && !offers(recipe, PLR_FRAGMENT, "texture_apply")))
+        !offers(recipe, PLR_VERTEX, "vertex_eye_space"))
         return;
+    bool named = offers(recipe, PLR_FRAGMENT, "main_texture_apply");
     plr_define old_name = plr_shape_define(shape, "OLD_NAME", !named);
     plr_shape_effect(shape, "surface/ComposedShader", "ComposedShader", NULL, 0, &old_name, 1);
     plr_shape_textures(shape);

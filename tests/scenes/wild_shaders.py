@@ -118,30 +118,48 @@ def broken_complete_shader():
     suite.equal("one error", [m[5] for m in result.messages()], ["glsl"])
 
 
+LIGHT = ("DEF L SpotLight { location 0 4 0 direction 0 -1 0 cutOffAngle 0.8 beamWidth 0.7 "
+         "projectionNear 0.5 projectionFar 10 up 0 0 -1 }\n")
+SHADOW_MAP = "DEF SM GeneratedShadowMap { light USE L update \"ALWAYS\" scale 1.1 bias 4 size 128 }"
+
+
+def shadowed(appearance, coordinates):
+    """A floor below a box, seen from above: the colour beside the box, in its shadow, and farther off."""
+    text = scene(
+        "OrthoViewpoint { position 0 10 0 orientation 1 0 0 -1.57079633 fieldOfView -4 -4 4 4 }\n", NO_HEADLIGHT, LIGHT,
+        f"Shape {{ appearance Appearance {{ material Material {{ diffuseColor 1 1 1 ambientIntensity 0 }} {appearance} }}\n"
+        "geometry IndexedFaceSet { solid FALSE coordIndex [ 0 1 2 3 -1 ]\n"
+        f"coord Coordinate {{ point [ -4 0 4, 4 0 4, 4 0 -4, -4 0 -4 ] }} texCoord {coordinates} }} }}\n",
+        "Transform { translation 0 2 0 children Shape { appearance Appearance { material Material { } } "
+        "geometry Box { size 1 0.2 1 } } }\n")
+    result = suite.render(text, "--probe", "37,32", "--probe", "44,32", size="64x64")
+    suite.equal("without a word", result.messages(), [])
+    return [tuple(float(w) for w in line.split()) for line in result.output.splitlines()]
+
+
 @suite.case
 def shadow_map_in_a_multi_texture():
     "GeneratedShadowMap and ProjectedTextureCoordinate written out, as the second of two textures"
-    light = ("DEF L SpotLight { location 0 4 0 direction 0 -1 0 cutOffAngle 0.8 beamWidth 0.7 "
-             "projectionNear 0.5 projectionFar 10 up 0 0 -1 }\n")
-    floor = """Shape { appearance Appearance { material Material { diffuseColor 1 1 1 ambientIntensity 0 }
-      texture MultiTexture { mode [ "MODULATE" "MODULATE" ] texture [
-        PixelTexture { image 1 1 3 0x336699 }
-        GeneratedShadowMap { light USE L update "ALWAYS" scale 1.1 bias 4 size 128 } ] } }
-      geometry IndexedFaceSet { solid FALSE coordIndex [ 0 1 2 3 -1 ]
-        coord Coordinate { point [ -4 0 4, 4 0 4, 4 0 -4, -4 0 -4 ] }
-        texCoord MultiTextureCoordinate { texCoord [
-          TextureCoordinate { point [ 0 0, 1 0, 1 1, 0 1 ] }
-          ProjectedTextureCoordinate { projector USE L } ] } } }\n"""
-    box = ("Transform { translation 0 2 0 children Shape { appearance Appearance { material Material { } } "
-           "geometry Box { size 1 0.2 1 } } }\n")
-    view = "OrthoViewpoint { position 0 10 0 orientation 1 0 0 -1.57079633 fieldOfView -4 -4 4 4 }\n"
-    text = scene(view, NO_HEADLIGHT, light, floor, box)
-    got = suite.probe(text, [(37, 32), (44, 32)], size="64x64")
-    x = 12.5 / 8
-    suite.close("in the shadow, beside what casts it", got[0], (0, 0, 0, 1))
-    suite.close("in the light", got[1], tuple(c * 4 / math.hypot(4, x, 0.0625) for c in COLOR) + (1,), 2e-3)
-    result = suite.render(text, "--probe", "1,1")
-    suite.equal("without a word", result.messages(), [])
+    got = shadowed(
+        f"texture MultiTexture {{ mode [ \"MODULATE\" \"MODULATE\" ] texture [ {PIXEL} {SHADOW_MAP} ] }}",
+        "MultiTextureCoordinate { texCoord [ TextureCoordinate { point [ 0 0, 1 0, 1 1, 0 1 ] } "
+        "ProjectedTextureCoordinate { projector USE L } ] }")
+    suite.close("in the shadow", got[0], (0, 0, 0, 1))
+    cosine = 4 / math.hypot(4, 12.5 / 8, 0.0625)
+    suite.close("in the light", got[1], tuple(c * cosine for c in COLOR) + (1,), 2e-3)
+
+
+@suite.case
+def shadow_map_of_a_complete_shader():
+    "a complete shader without a place for textures reads a shadow map at projected coordinates"
+    fragment = """/* PLUG-DECLARATIONS */
+uniform sampler2DShadow shadowMap;
+varying vec4 castle_TexCoord0;
+void main(void) { gl_FragColor = vec4(shadow2DProj(shadowMap, castle_TexCoord0).rrr, 1.0); }"""
+    got = shadowed(f"texture {SHADOW_MAP}\n" + shader(fragment=fragment, fields="inputOutput SFNode shadowMap USE SM"),
+                   "ProjectedTextureCoordinate { projector USE L }")
+    suite.close("in the shadow", got[0], (0, 0, 0, 1))
+    suite.close("in the light", got[1], (1, 1, 1, 1))
 
 
 @suite.case
