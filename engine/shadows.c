@@ -56,6 +56,11 @@ static bool has_map(const plr_node *light) {
            plr_node_is(light, "PointLight");
 }
 
+/* Six faces of this side are more than a gigabyte. */
+enum {
+    MOST_SIDE = 8192
+};
+
 static plr_shadow *make_shadow(plr_view *view, plr_node *light) {
     plr_node *map = plr_node_child(light, "defaultShadowMap");
     plr_texture *texture = map ? plr_textures_get(&view->textures, map) : NULL;
@@ -66,9 +71,7 @@ static plr_shadow *make_shadow(plr_view *view, plr_node *light) {
         texture = NULL;
     if (!texture) {
         int size = plr_node_int(map ? map : light, map ? "size" : "shadowMapSize");
-        uint32_t side = size < 1                      ? 1
-                        : size > PLR_TEXTURE_MAX_SIDE ? PLR_TEXTURE_MAX_SIDE
-                                                      : (uint32_t)size;
+        uint32_t side = size < 1 ? 1 : size > MOST_SIDE ? MOST_SIDE : (uint32_t)size;
         texture = plr_textures_generate(
             &view->textures, is_wide(light) ? PLR_TEXTURE_CUBE_SHADOW : PLR_TEXTURE_2D_SHADOW, true,
             side, side);
