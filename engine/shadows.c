@@ -56,9 +56,9 @@ static bool has_map(const plr_node *light) {
            plr_node_is(light, "PointLight");
 }
 
-/* Six faces of this side are more than a gigabyte. */
+/* A cube of this side takes 400 megabytes. */
 enum {
-    MOST_SIDE = 8192
+    MOST_SIDE = 4096
 };
 
 static plr_shadow *make_shadow(plr_view *view, plr_node *light) {
