@@ -2,7 +2,7 @@
 
 /* The direction at length 1; what has no direction stays zero. */
 vec3 unit_or_zero(vec3 direction) {
-    return direction * inversesqrt(max(dot(direction, direction), 1e-37));
+    return direction * inversesqrt(dot(direction, direction) + 1e-37);
 }
 
 /* From a point in eye space to the viewer, length 1; in parallel projection the same for all. */
@@ -16,9 +16,9 @@ vec3 direction_to_viewer(vec4 vertex_eye) {
 vec3 phong_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
     vec3 reflected = material.diffuse * max(dot(normal_eye, light_dir), 0.0);
     vec3 between = light_dir + direction_to_viewer(vertex_eye);
-    float n_dot_h = dot(normal_eye, between) * inversesqrt(max(dot(between, between), 1e-37));
-    /* pow is not defined where both are 0 */
-    float shine = pow(max(n_dot_h, 0.0), max(material.shininess, 1e-30));
+    float n_dot_h = dot(normal_eye, between) * inversesqrt(dot(between, between) + 1e-37);
+    /* pow is not defined where both are 0; a sum costs less than a max, which must mind NaN */
+    float shine = pow(max(n_dot_h, 0.0), material.shininess + 1e-30);
     return reflected + shine * material.specular;
 }
 

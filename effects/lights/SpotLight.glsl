@@ -33,7 +33,7 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
                     const in MaterialInfo material) {
     vec3 to_light = light_location_eye - vertex_eye.xyz;
     float far = length(to_light);
-    vec3 light_dir = to_light / max(far, 1e-18);
+    vec3 light_dir = to_light / (far + 1e-18);
     float scale = 1.0;
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     scale *= spot_factor(-light_dir) *
