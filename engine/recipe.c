@@ -262,15 +262,29 @@ static void add_stage(plr_kitchen *k, plr_sources *to, const plr_sources *from, 
             *PLR_PUSH(k->arena, to) = from->items[i];
 }
 
+static bool has_stage(const plr_sources *units, plr_stage stage) {
+    for (size_t i = 0; i < units->count; i++)
+        if (plr_source_stage(units->items[i]) == stage)
+            return true;
+    return false;
+}
+
+/* Vertices that a shader says nothing of go where those of other shapes go; a geometry stage is for
+ * effects that bring a main() to it. */
 bool plr_recipe_shader_base(plr_kitchen *k, plr_recipe *recipe, plr_node *shader) {
+    static const plr_stage given[] = {PLR_VERTEX, PLR_GEOMETRY};
     if (!is_glsl(k, shader))
         return false;
     collect_parts(k, shader, &recipe->base);
     if (recipe->base.count == 0)
         return false;
-    plr_sources geometry = {0};
-    add_stage(k, &geometry, &recipe->base, PLR_GEOMETRY);
-    if (!geometry.count) /* else for effects that bring a main() to the stage */
-        add_stage(k, &recipe->base, plr_catalog_units(k->catalog, "surface/surface"), PLR_GEOMETRY);
+    if (!has_stage(&recipe->base, PLR_FRAGMENT)) {
+        plr_diags_add(k->diags, PLR_CODE_NOT_DRAWN, plr_node_place(shader),
+                      "the %s has no fragment part; it is left out", plr_node_type(shader));
+        return false;
+    }
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+        if (!has_stage(&recipe->base, given[i]))
+            add_stage(k, &recipe->base, plr_catalog_units(k->catalog, "surface/surface"), given[i]);
     return true;
 }

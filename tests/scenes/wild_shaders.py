@@ -108,6 +108,25 @@ def effects_on_complete_shaders():
 
 
 @suite.case
+def parts_left_out():
+    "without a vertex part vertices go where others go, effects move them; without a fragment part the material is seen"
+    part = "ShaderPart { type \"%s\" url \"data:text/plain,\n%s\n\" }"
+    only = "DEF S ComposedShader { language \"GLSL\" parts " + part + " }"
+    green = only % ("FRAGMENT", "void main() { gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0); }")
+    move = effect("void PLUG_vertex_object_space_change(inout vec4 v, inout vec3 n) { v.x += 9.0; }", kind="VERTEX")
+    check_all([
+        ("green", quad("Material { }", appearance=f"shaders {green}"), (0, 1, 0)),
+        ("moved away", quad("Material { }", move, "shaders USE S") + "Transform { translation 0 0 -1 children [\n" +
+         quad("UnlitMaterial { emissiveColor 0 0 1 }") + "] }\n", (0, 0, 1)),
+    ])
+    content = quad("UnlitMaterial { emissiveColor 1 0 0 }", appearance="shaders " + only % ("VERTEX", VERTEX))
+    result = suite.render(front_scene(content, "Transform { translation 9 0 0 children [\n",
+                                      quad(appearance="shaders USE S"), "] }\n"), "--probe", "7,8")
+    suite.close("the material", [float(w) for w in result.output.split()], (1, 0, 0, 1))
+    suite.equal("one warning", [m[5] for m in result.messages()], ["not-drawn"])
+
+
+@suite.case
 def broken_complete_shader():
     "the material with its textures and lights takes over from a broken complete shader"
     broken = FRAGMENT.replace("gl_FragColor =", "gl_FragColor = missing *")
