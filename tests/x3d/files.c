@@ -208,7 +208,7 @@ static void test_rules(void) {
     check_url("fifo", NULL, "not-allowed");
     check_url("", NULL, "missing-file");
     check_url("http://example.org/f", NULL, "not-allowed");
-    check_url("castle-data:/f", NULL, "not-allowed");
+    check_url("castle-data:/f", NULL, "missing-file");
     check_url("a b", NULL, "");
     check_url("a%20b", NULL, "");
     snprintf(absolute, sizeof absolute, "%s/scene/in/f", top);
