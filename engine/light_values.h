@@ -1,5 +1,6 @@
-/* The lights of a shape under the names that content of other browsers uses: castle_LightSource0Color,
- * castle_LightSource1SpotDirection, ... N counts the lights in the order of their calls. No GL. */
+/* The lights of a shape under the names that content of other browsers uses:
+ * castle_LightSource0Color, castle_LightSource1SpotDirection, ... N counts the lights in the order
+ * of their calls. No GL. */
 #ifndef PLR_ENGINE_LIGHT_VALUES_H
 #define PLR_ENGINE_LIGHT_VALUES_H
 
