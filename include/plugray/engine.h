@@ -63,8 +63,9 @@ PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
 typedef struct plr_view_desc {
     /* NULL or "": the first of the file; else a number from 1, a DEF name or a description */
     const char *viewpoint;
-    double time;   /* seconds after the scene was loaded */
-    double aspect; /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
+    double time; /* seconds after the scene was loaded */
+    double
+        aspect;  /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
     double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
     int dialect; /* of volume nodes; 0: found out, 2005, or 1: final */
     /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
