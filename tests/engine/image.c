@@ -17,8 +17,7 @@ static bool is_image(const plr_image *image, uint32_t width, uint32_t height, ui
            image->components == components && image->type == type;
 }
 
-/* ---- PNG
- * -------------------------------------------------------------------------------------------- */
+/* ---- PNG ---- */
 
 static void add_chunk(file *f, const char *type, const void *data, size_t length) {
     static unsigned char joined[4096];
@@ -78,8 +77,7 @@ static void test_png(void) {
         }
 }
 
-/* ---- other formats
- * ----------------------------------------------------------------------------------- */
+/* ---- other formats ---- */
 
 static void test_hdr(void) {
     static file f;

@@ -12,8 +12,7 @@ static plr_volume make_volume(plr_voxel_type type, uint32_t w, uint32_t h, uint3
 
 static const double as_said[2] = {0, 0};
 
-/* ---- samples
- * --------------------------------------------------------------------------------------- */
+/* ---- samples ---- */
 
 static void test_bytes(void) {
     plr_volume v = make_volume(PLR_VOXEL_U8, 256, 1, 1);
@@ -104,8 +103,7 @@ static void test_not_finite(void) {
     plr_volume_free(&v);
 }
 
-/* ---- gradients
- * ------------------------------------------------------------------------------------ */
+/* ---- gradients ---- */
 
 static plr_image make_image(uint32_t w, uint32_t h, uint32_t d, uint32_t components) {
     plr_image image = {.width = w, .height = h, .depth = d, .components = components};
@@ -189,8 +187,7 @@ static void test_integer_samples(void) {
     CHECK_NEAR(plr_image_gradient_percentile(&flat, dimensions), 0.5, 1e-6);
 }
 
-/* ---- speed
- * ------------------------------------------------------------------------------------------ */
+/* ---- speed ---- */
 
 static double seconds(void) {
     return (double)clock() / CLOCKS_PER_SEC; /* of this program: other load does not count */
@@ -215,8 +212,7 @@ static void test_speed(void) {
     plr_volume_free(&v);
 }
 
-/* ---- real files
- * --------------------------------------------------------------------------------------- */
+/* ---- real files ---- */
 
 /* Sums and ranges found with another reader (Python's zlib and array modules). */
 static const struct {

@@ -150,8 +150,7 @@ static void test_values(void) {
     plr_volume_free(&v);
 }
 
-/* ---- geometry
- * ------------------------------------------------------------------------------------ */
+/* ---- geometry ---- */
 
 static bool has_direction(const plr_volume *v, int axis, double x, double y, double z) {
     return fabs(v->directions[axis][0] - x) < 1e-6 && fabs(v->directions[axis][1] - y) < 1e-6 &&
@@ -212,8 +211,7 @@ static void test_geometry(void) {
     plr_volume_free(&v);
 }
 
-/* ---- files
- * --------------------------------------------------------------------------------------- */
+/* ---- files ---- */
 
 static void test_extensions_and_gzip(void) {
     static folder in;
@@ -270,8 +268,7 @@ static void test_axes(void) {
     plr_volume_free(&v);
 }
 
-/* ---- faults
- * ---------------------------------------------------------------------------------------- */
+/* ---- faults ---- */
 
 static void test_fault(const header *h, size_t length, const char *message) {
     plr_volume v;
