@@ -43,6 +43,8 @@ void plr_shape_material(plr_shape *shape);
 void plr_shape_textures(plr_shape *shape);
 /* Instead, of a shape with an author's complete shader, where that shader takes them. */
 void plr_shape_complete_textures(plr_shape *shape);
+/* The same of fog: where it has the plugs vertex_eye_space and fog_apply. */
+void plr_shape_complete_surroundings(plr_shape *shape);
 /* Normals and heights from textures. */
 void plr_shape_bumps(plr_shape *shape);
 void plr_shape_lights(plr_shape *shape);
@@ -50,6 +52,8 @@ void plr_shape_lights(plr_shape *shape);
 void plr_shape_properties(plr_shape *shape);
 /* Fog, clip planes, tone mapping and gamma. */
 void plr_shape_surroundings(plr_shape *shape);
+/* Fog for a complete shader, which has no places of the base's own. */
+void plr_shape_complete_fog(plr_shape *shape);
 
 /* ---- State beside the program ---- */
 

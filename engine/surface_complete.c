@@ -40,6 +40,12 @@ static bool offers(const plr_recipe *recipe, plr_stage stage, const char *plug) 
     return false;
 }
 
+void plr_shape_complete_surroundings(plr_shape *shape) {
+    if (offers(shape->recipe, PLR_VERTEX, "vertex_eye_space") &&
+        offers(shape->recipe, PLR_FRAGMENT, "fog_apply"))
+        plr_shape_complete_fog(shape);
+}
+
 /* Coordinates also where the shader offers no place for colours: it may read castle_TexCoord0. */
 void plr_shape_complete_textures(plr_shape *shape) {
     const plr_recipe *recipe = shape->recipe;

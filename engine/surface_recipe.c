@@ -91,6 +91,7 @@ static bool compose_shader(plr_shape *shape) {
         define_surface(shape);
         shape->channel_count = 0;
         plr_shape_complete_textures(shape);
+        plr_shape_complete_surroundings(shape);
         compose(shape);
         if (shape->model->pass.built)
             return true;

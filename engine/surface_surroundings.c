@@ -61,7 +61,7 @@ static bool is_immune_to_fog(const plr_shape *shape) {
 }
 
 /* The nearest LocalFog, else the Fog of the scene. */
-static void add_fog(plr_shape *shape) {
+static void add_fog(plr_shape *shape, bool complete) {
     const plr_placed *fog = &shape->view->flat.fog;
     for (const plr_scope *scope = shape->leaf->scope; scope; scope = scope->outer)
         if (scope->fog.node) {
@@ -70,9 +70,10 @@ static void add_fog(plr_shape *shape) {
         }
     if (!fog->node || is_immune_to_fog(shape))
         return;
-    plr_define given =
-        plr_shape_define(shape, "HAS_FOG_COORD", shape->model->mesh.fog_coords != NULL);
-    add_placed(shape, "fog/Fog", fog, &given, 1);
+    const plr_define extra[] = {
+        plr_shape_define(shape, "HAS_FOG_COORD", shape->model->mesh.fog_coords != NULL),
+        plr_shape_define(shape, "COMPLETE", complete)};
+    add_placed(shape, "fog/Fog", fog, extra, sizeof extra / sizeof *extra);
 }
 
 static void add_clip_planes(plr_shape *shape) {
@@ -91,8 +92,12 @@ static void add_clip_planes(plr_shape *shape) {
 
 void plr_shape_surroundings(plr_shape *shape) {
     add_output(shape);
-    add_fog(shape);
+    add_fog(shape, false);
     add_clip_planes(shape);
+}
+
+void plr_shape_complete_fog(plr_shape *shape) {
+    add_fog(shape, true);
 }
 
 /* ---- Volumes ---- */

@@ -16,6 +16,11 @@ uniform float volumetricVisibilityStart = 0.0;
 
 #if HAS_FOG_COORD && !volumetric
 in float fog_coordinate;
+#elif COMPLETE
+in vec4 fog_place;
+#define FOG_PLACE fog_place
+#else
+#define FOG_PLACE surface_vertex_eye
 #endif
 
 /* How much of the surface is seen through so much fog. */
@@ -35,12 +40,12 @@ float fog_interpolant(float depth) {
 
 float fog_depth() {
 #if volumetric
-    vec3 place = (eyeToNode * surface_vertex_eye).xyz;
+    vec3 place = (eyeToNode * FOG_PLACE).xyz;
     return max(dot(place, unit_or_zero(volumetricDirection)) - volumetricVisibilityStart, 0.0);
 #elif HAS_FOG_COORD
     return max(fog_coordinate, 0.0);
 #else
-    return length(mat3(eyeToNode) * surface_vertex_eye.xyz);
+    return length(mat3(eyeToNode) * FOG_PLACE.xyz);
 #endif
 }
 

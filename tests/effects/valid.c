@@ -257,7 +257,9 @@ static const plr_define shifted[] = {{"CHANNEL", "0"},   {"DIMENSIONS", "2"}, {"
 static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
 static const plr_define given_fog[] = {
-    {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}};
+    {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}, {"COMPLETE", "0"}};
+static const plr_define complete_fog[] = {
+    {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "1"}};
 static const plr_define on_surface[] = {{"SURFACE", "1"}};
 static const plr_define in_volume[] = {{"SURFACE", "0"}};
 static const plr_define top_image[] = {{"FACE", "4"}, {"HAS_IMAGE", "1"}};
@@ -447,6 +449,11 @@ static const recipe recipes[] = {
      DEFINES(plain),
      .present = "castle_FogCoord discard exp",
      .absent = "volumetric"},
+    {"fog of a complete shader",
+     "surface/surface",
+     {{.path = "fog/Fog", DEFINES(complete_fog)}},
+     DEFINES(plain),
+     .present = "fog_place"},
     {"bumps",
      "surface/surface",
      {{.path = "surface/Material"},

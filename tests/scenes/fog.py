@@ -170,6 +170,29 @@ def edge_of_a_plane():
     suite.equal("", wrong, [])
 
 
+COMPLETE = ("Shape { appearance Appearance { shaders ComposedShader { parts [ ShaderPart { type \"VERTEX\" url \"data:text/plain,\n"
+            "attribute vec4 castle_Vertex;\nuniform mat4 castle_ModelViewMatrix, castle_ProjectionMatrix;\n"
+            "void main() { vec4 vertex_eye = castle_ModelViewMatrix * castle_Vertex; vec3 normal_eye = vec3(0.0, 0.0, 1.0);\n"
+            "/* PLUG: vertex_eye_space (vertex_eye, normal_eye) */\n"
+            "gl_Position = castle_ProjectionMatrix * vertex_eye; }\" } ShaderPart { type \"FRAGMENT\" url \"data:text/plain,\n"
+            "void main() { vec4 color = vec4(0.0, 1.0, 0.0, 1.0); vec3 normal = vec3(0.0, 0.0, 1.0);\n"
+            "%s\ngl_FragColor = color; }\" } ] } } geometry %s }\n")
+
+
+@suite.case
+def complete_shaders():
+    "fog reaches an author's complete shader where that offers fog_apply, and no other"
+    fog = "Fog { color 1 0 0 visibilityRange 10 %s }\n"
+    apply, wall = "/* PLUG: fog_apply (color, normal) */", "Rectangle2D { size 40 40 }"
+    suite.close("offered", perspective(fog % "", COMPLETE % (apply, wall), at=(4, 4)), fogged(linear(4, 10)), 2e-3)
+    suite.close("exponential", perspective(fog % 'fogType "EXPONENTIAL"', COMPLETE % (apply, wall), at=(4, 4)),
+                fogged(exponential(4, 10)), 2e-3)
+    square = ("IndexedFaceSet { coordIndex [0 1 2 3 -1] coord Coordinate { point [-9 -9 0, 9 -9 0, 9 9 0, -9 9 0] } "
+              "fogCoord FogCoordinate { depth [ 5, 5, 5, 5 ] } }")
+    suite.close("fog coordinates", perspective(fog % "", COMPLETE % (apply, square), at=(4, 4)), fogged(linear(5, 10)))
+    suite.close("not offered", perspective(fog % "", COMPLETE % ("", wall), at=(4, 4)), (0, 1, 0, 1))
+
+
 @suite.case
 def many_planes():
     "more planes than anybody needs are told of, once"
