@@ -1,8 +1,9 @@
 /* Scenes in Classic VRML whose geometry nodes are all built. */
-#include "engine/mesh.h"
-#include "scene.h"
-
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/mesh.h"
 
 /* Together; so that a run takes no longer than a few seconds. */
 #define MOST_VERTICES ((size_t)1 << 19)
@@ -12,27 +13,31 @@ static void check_mesh(plr_mesh *mesh) {
     size_t sum = 0;
     for (uint32_t i = 0; i < mesh->index_count; i++) {
         if (mesh->indices[i] >= mesh->vertex_count)
-            fuzz_fault();
+            abort();
         for (size_t axis = 0; axis < 3; axis++)
             if (!isfinite(mesh->positions[3 * (size_t)mesh->indices[i] + axis]))
-                fuzz_fault();
+                abort();
     }
     if (mesh->kind == PLR_MESH_TRIANGLES &&
         (!mesh->normals || !mesh->tex_coords[0] || mesh->index_count % 3))
-        fuzz_fault();
+        abort();
     if (mesh->kind == PLR_MESH_LINES && (!mesh->line_distances || mesh->index_count % 2))
-        fuzz_fault();
+        abort();
     for (unsigned unit = 0; unit < PLR_MESH_TEX_UNITS; unit++)
         if (plr_mesh_tex_coords(mesh, unit))
             sum += plr_mesh_tex_coords(mesh, unit)[4 * (size_t)mesh->vertex_count - 1] > 0;
     if (plr_mesh_plane_coords(mesh) && plr_mesh_box_coords(mesh))
         sum += plr_mesh_box_coords(mesh)[4 * (size_t)mesh->vertex_count - 1] > 0;
+    if (plr_mesh_tangents(mesh))
+        for (size_t i = 0; i < 4 * (size_t)mesh->vertex_count; i++)
+            if (!isfinite(plr_mesh_tangents(mesh)[i]))
+                abort();
     for (size_t i = 0; i < mesh->attribute_count; i++) {
         const plr_mesh_attribute *a = &mesh->attributes[i];
         sum += strlen(a->name) + (a->values[(size_t)a->components * mesh->vertex_count - 1] > 0);
     }
     if (sum == SIZE_MAX)
-        fuzz_fault();
+        abort();
 }
 
 static void build_all(plr_node *node, size_t *left, plr_diags *diags) {
@@ -52,6 +57,7 @@ static void build_all(plr_node *node, size_t *left, plr_diags *diags) {
     }
 }
 
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     plr_read_desc desc = {.max_nodes = 1000, .max_depth = 50, .max_memory = (size_t)64 << 20};
     plr_diags *diags = plr_diags_create(NULL);
