@@ -53,7 +53,13 @@ static bool check_effect(plr_linking *l, uint32_t e) {
                 "%s is attached to an effect that does not come before it", plr_effect_text(l, e));
         return false;
     }
-    return true;
+    size_t depth = 0;
+    for (size_t at = plr_attached_to(l, e); at && depth <= PLR_MOST_ATTACHED; depth++)
+        at = plr_attached_to(l, at - 1);
+    if (depth > PLR_MOST_ATTACHED)
+        plr_say(l, PLR_CODE_LIMIT, effect->place, "%s is attached more than %d effects deep",
+                plr_effect_text(l, e), PLR_MOST_ATTACHED);
+    return depth <= PLR_MOST_ATTACHED;
 }
 
 /* Whether the effect brings main() to the geometry stage. */

@@ -347,6 +347,8 @@ bool plr_same_type(const plr_unit *a, const plr_item *x, const plr_unit *b, cons
 bool plr_same_signature(const plr_unit *a, const plr_name *x, const plr_unit *b, const plr_name *y);
 
 /* sockets.c: plugs and the functions called there. */
+/* What an effect is attached to: k + 1 of effect k, which stands before it; 0: nothing. */
+size_t plr_attached_to(const plr_linking *l, size_t effect);
 void plr_add_sockets(plr_linking *l, plr_unit *unit);
 bool plr_find_functions(plr_linking *l, plr_scope *scope);
 void plr_name_functions(plr_linking *l, plr_scope *scope);

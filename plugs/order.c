@@ -4,8 +4,10 @@
 #include <string.h>
 
 enum {
-    REACH_ALL,  /* built-in effects anywhere */
-    REACH_WHOLE /* those that are attached to nothing; k + 2: effect k and what is attached to it */
+    REACH_ALL,   /* built-in effects anywhere */
+    REACH_WHOLE, /* those that are attached to nothing; k + 2: effect k and what is attached to it
+                  */
+    MOST_KEYS = PLR_MOST_ATTACHED + 3
 };
 
 static uint64_t target_key(uint32_t name, uint64_t reach) {
@@ -17,17 +19,18 @@ static const char *target_of(const plr_linking *l, uint32_t effect) {
     return target && *target ? target : NULL;
 }
 
-/* The keys under which a built-in effect may be aimed at. */
-static unsigned keys_of(const plr_linking *l, uint32_t effect, uint64_t keys[4]) {
+/* The keys under which a built-in effect may be aimed at: what it is attached to, directly or not,
+ * as far as their plugs reach. */
+static unsigned keys_of(const plr_linking *l, uint32_t effect, uint64_t keys[MOST_KEYS]) {
     unsigned count = 0;
     uint32_t name = l->names[effect];
-    size_t attached = l->desc->effects[effect].attached;
     keys[count++] = target_key(name, REACH_ALL);
     keys[count++] = target_key(name, (uint64_t)effect + 2);
-    if (!attached)
+    if (!l->desc->effects[effect].attached)
         keys[count++] = target_key(name, REACH_WHOLE);
-    else
-        keys[count++] = target_key(name, (uint64_t)attached + 1);
+    for (size_t around = plr_attached_to(l, effect); around && count < MOST_KEYS;
+         around = l->desc->effects[around - 1].private_plugs ? 0 : plr_attached_to(l, around - 1))
+        keys[count++] = target_key(name, (uint64_t)around + 1);
     return count;
 }
 
@@ -62,7 +65,7 @@ void plr_note_targets(plr_linking *l) {
         if (!effect->builtin || !effect->name)
             continue;
         l->names[e] = plr_gid(l, effect->name, strlen(effect->name));
-        uint64_t keys[4];
+        uint64_t keys[MOST_KEYS];
         unsigned count = keys_of(l, e, keys);
         for (unsigned k = 0; k < count; k++)
             *plr_table_put(l->arena, &l->targets_of, keys[k]) = l;
@@ -89,7 +92,7 @@ static void find_called(plr_linking *l) {
 void plr_leave_inactive(plr_linking *l) {
     plr_table active = {NULL, NULL, 0, 0};
     for (uint32_t e = 0; e < l->effect_count; e++) {
-        uint64_t keys[4];
+        uint64_t keys[MOST_KEYS];
         unsigned count = l->names[e] == PLR_NONE || !l->called[e] ? 0 : keys_of(l, e, keys);
         for (unsigned k = 0; k < count; k++)
             *plr_table_put(l->pass, &active, keys[k]) = l;
@@ -116,7 +119,7 @@ static void mark_removed(plr_linking *l) {
         any = true;
     }
     for (uint32_t e = 0; any && e < l->effect_count; e++) {
-        uint64_t keys[4];
+        uint64_t keys[MOST_KEYS];
         unsigned count = l->names[e] == PLR_NONE ? 0 : keys_of(l, e, keys);
         for (unsigned k = 0; k < count; k++)
             l->removed[e] |= plr_table_get(&aims, keys[k]) != NULL;
@@ -146,7 +149,7 @@ typedef struct arrangement {
 static void add_anchor(arrangement *a, const plr_call *call) {
     anchor *fresh = &a->anchors[a->anchor_count++];
     fresh->call = *call;
-    uint64_t keys[4];
+    uint64_t keys[MOST_KEYS];
     unsigned count = a->l->names[call->function->effect] == PLR_NONE
                          ? 0
                          : keys_of(a->l, call->function->effect, keys);

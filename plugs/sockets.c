@@ -9,6 +9,11 @@ static uint64_t plug_key(plr_stage stage, uint32_t instance, uint32_t gid) {
     return (uint64_t)(stage + 1) << 60 | (uint64_t)instance << 32 | gid;
 }
 
+size_t plr_attached_to(const plr_linking *l, size_t effect) {
+    size_t attached = l->desc->effects[effect].attached;
+    return attached <= effect ? attached : 0; /* faulty: see check_effect */
+}
+
 static void list_socket(plr_linking *l, uint64_t key, plr_socket *socket) {
     void **slot = plr_table_put(l->pass, &l->by_plug, key);
     if (!*slot)
@@ -31,13 +36,16 @@ void plr_add_sockets(plr_linking *l, plr_unit *unit) {
         socket->index = (uint32_t)l->sockets.count;
         unit->sockets[index] = socket;
         *PLR_PUSH(l->pass, &l->sockets) = socket;
-        list_socket(l, plug_key(stage, 0, gid), socket);
-        if (owner >= l->effect_count)
+        bool of_effect = owner < l->effect_count;
+        bool hidden = of_effect && l->desc->effects[owner].private_plugs;
+        if (!hidden)
+            list_socket(l, plug_key(stage, 0, gid), socket);
+        if (!of_effect)
             continue;
         list_socket(l, plug_key(stage, owner + 1, gid), socket);
-        size_t attached = l->desc->effects[owner].attached;
-        if (attached && attached != owner + 1)
-            list_socket(l, plug_key(stage, (uint32_t)attached, gid), socket);
+        for (size_t around = hidden ? 0 : plr_attached_to(l, owner); around;
+             around = plr_attached_to(l, around - 1))
+            list_socket(l, plug_key(stage, (uint32_t)around, gid), socket);
     }
 }
 

@@ -70,6 +70,8 @@ typedef enum plr_placement {
 
 /* "attached to nothing": the effect reaches the plugs of the base and of every effect before it. */
 #define PLR_WHOLE 0
+/* How deep effects may be attached to effects. */
+#define PLR_MOST_ATTACHED 64
 
 /* An effect: an ordered group of units that share names. */
 typedef struct plr_effect {
@@ -83,9 +85,11 @@ typedef struct plr_effect {
     /* 0: PLR_WHOLE. k: this effect is local to effect k-1 of the list (a light, a texture, a
      * volume; it must stand earlier): it uses the plugs of that effect and of the effects attached
      * to it, directly or not, and where these have none of the name, those of everything before it.
-     */
+     * No more than PLR_MOST_ATTACHED effects deep. */
     size_t attached;
     bool only_attached; /* attached, and never to use the plugs of anything else */
+    bool private_plugs; /* its plugs are for what is attached to it, directly, and for nothing else:
+                         * it calls there what stands inside it */
     bool builtin;  /* comes with the host: may be a target, stands before authors' in its place */
     bool disabled; /* keeps its number, contributes nothing */
     plr_placement placement;

@@ -157,6 +157,17 @@ static void test_attached_forward(void) {
     CHECK_INT(plr_diags_count_of(r->diags, PLR_ERROR), 1);
 }
 
+static void test_attached_deep(void) {
+    begin();
+    base(BASE);
+    for (size_t i = 0; i < PLR_MOST_ATTACHED + 2; i++)
+        effect(GOOD)->attached = i;
+    const linked *r = link_valid();
+    CHECK(!plr_program_is_faulty(r->program, PLR_MOST_ATTACHED));
+    CHECK(plr_program_is_faulty(r->program, PLR_MOST_ATTACHED + 1));
+    CHECK_INT(plr_diags_count_of(r->diags, PLR_ERROR), 1);
+}
+
 /* A fault in one stage leaves out the effect in all. */
 static void test_all_stages(void) {
     begin();
@@ -203,6 +214,7 @@ int main(void) {
     test_base_fault();
     test_disabled();
     test_attached_forward();
+    test_attached_deep();
     test_all_stages();
     test_kept_text();
     test_byte_order_mark();

@@ -317,6 +317,45 @@ static void test_instance_plug_of_attached(void) {
     CHECK_SILENT();
 }
 
+#define NEST                                                                                       \
+    "void PLUG_light_scale(inout float s) { float t = s;\n/* PLUG: light_scale (t) */ s = t; }\n"
+
+/* An effect at the end of a chain is reached from its beginning. */
+static void test_deep_instances(void) {
+    begin();
+    base(LIT);
+    light();
+    effect("void PLUG_light_scale(inout float s) { /* PLUG: mine (s) */ s *= 0.5; }\n")->attached =
+        1;
+    effect("void PLUG_mine(inout float s) { /* PLUG: inner (s) */ s += 0.5; }\n")->attached = 2;
+    effect("void PLUG_inner(inout float s) { s += 0.25; }\n")->attached = 1;
+    light();
+    effect("void PLUG_inner(inout float s) { s += 0.25; }\n")->attached = 5;
+    const linked *r = link_valid();
+    CHECK_INT(occurrences(r->fragment, "plr3_inner(s);"), 1);
+    CHECK_INT(occurrences(r->fragment, "plr5_inner(s);"), 1); /* no such plug there: any */
+}
+
+/* What stands inside an effect with plugs of its own is called there alone, and nothing else is. */
+static void test_private_plugs(void) {
+    begin();
+    base(LIT);
+    light();
+    plr_effect *around = effect(NEST);
+    around->attached = 1;
+    around->private_plugs = true;
+    plr_effect *inside = effect(SCALE);
+    inside->attached = 2;
+    inside->only_attached = true;
+    effect(SCALE)->attached = 1; /* beside: not called inside */
+    effect(SCALE);               /* of the whole: neither */
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "float t = s;\nplr2_light_scale(t);\ns = t;");
+    CHECK_INT(occurrences(r->fragment, "plr3_light_scale(scale);"), 1);
+    CHECK_INT(occurrences(r->fragment, "plr3_light_scale(t);"), 0);
+    CHECK_INT(occurrences(r->fragment, "plr4_light_scale(t);"), 0);
+}
+
 /* ---- Placement ---------------------------------------------------------------------------------
  */
 
@@ -443,6 +482,8 @@ int main(void) {
     test_instances();
     test_instance_reaches_shape();
     test_instance_plug_of_attached();
+    test_deep_instances();
+    test_private_plugs();
     test_placement();
     test_several_placed();
     test_only_if_active();
