@@ -16,6 +16,7 @@ static const plr_glsl_type glsl_types[] = {
     /* of samplers: the kind of texture that they read */
     {"sampler2D", SHAPE_SAMPLER, PLR_TEXTURE_2D, " Node "},
     {"sampler3D", SHAPE_SAMPLER, PLR_TEXTURE_3D, " Node "},
+    {"usampler3D", SHAPE_SAMPLER, PLR_TEXTURE_3D_LABELS, " Node "},
     {"samplerCube", SHAPE_SAMPLER, PLR_TEXTURE_CUBE, " Node "},
     {"sampler2DShadow", SHAPE_SAMPLER, PLR_TEXTURE_2D_SHADOW, " Node "},
     {"samplerCubeShadow", SHAPE_SAMPLER, PLR_TEXTURE_CUBE_SHADOW, " Node "},

@@ -7,7 +7,9 @@
 #include "engine/volume_internal.h"
 
 size_t plr_image_sample_size(plr_sample_type type) {
-    return type == PLR_FLOAT32 ? 4 : type == PLR_UNORM16 ? 2 : 1;
+    static const unsigned char sizes[] = {[PLR_UNORM8] = 1, [PLR_UNORM16] = 2, [PLR_FLOAT32] = 4,
+                                          [PLR_UINT8] = 1,  [PLR_UINT16] = 2,  [PLR_UINT32] = 4};
+    return sizes[type];
 }
 
 static size_t halved(uint32_t side, uint32_t level) {
@@ -37,6 +39,12 @@ double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t
         return ((const uint16_t *)samples)[index] / 65535.0;
     case PLR_FLOAT32:
         return (double)((const float *)samples)[index];
+    case PLR_UINT8:
+        return ((const uint8_t *)samples)[index];
+    case PLR_UINT16:
+        return ((const uint16_t *)samples)[index];
+    case PLR_UINT32:
+        return ((const uint32_t *)samples)[index];
     }
     return 0;
 }

@@ -9,7 +9,10 @@
 typedef enum plr_sample_type {
     PLR_UNORM8,  /* uint8_t, 255 is 1 */
     PLR_UNORM16, /* uint16_t, 65535 is 1 */
-    PLR_FLOAT32
+    PLR_FLOAT32,
+    PLR_UINT8, /* whole numbers, which stand for themselves: labels */
+    PLR_UINT16,
+    PLR_UINT32
 } plr_sample_type;
 
 /* Rows from the bottom, as textures want them; depth 1 for two dimensions. Owned by the struct. */
@@ -42,7 +45,7 @@ bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image
  */
 bool plr_image_from_cube_node(plr_scene *scene, const plr_node *texture, plr_image *image,
                               plr_diags *diags);
-/* The sample (x, y, z, component) as a number, 0..1 for UNORM types. */
+/* The sample (x, y, z, component) as a number, 0..1 for UNORM types, whole for UINT types. */
 double plr_image_sample(const plr_image *image, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
 void plr_image_free(plr_image *image);
 

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sample `index` as a fraction of `whole`: integers stay exact. */
 static double sample_at(const plr_image *image, size_t index) {
     switch (image->type) {
     case PLR_UNORM8:
@@ -13,6 +12,12 @@ static double sample_at(const plr_image *image, size_t index) {
         return ((const uint16_t *)image->samples)[index] / 65535.0;
     case PLR_FLOAT32:
         return (double)((const float *)image->samples)[index];
+    case PLR_UINT8:
+        return ((const uint8_t *)image->samples)[index];
+    case PLR_UINT16:
+        return ((const uint16_t *)image->samples)[index];
+    case PLR_UINT32:
+        return ((const uint32_t *)image->samples)[index];
     }
     return 0;
 }
@@ -27,6 +32,15 @@ static void put_sample(plr_sample_type type, void *out, size_t index, double val
         break;
     case PLR_FLOAT32:
         ((float *)out)[index] = (float)value;
+        break;
+    case PLR_UINT8:
+        ((uint8_t *)out)[index] = (uint8_t)(value + 0.5);
+        break;
+    case PLR_UINT16:
+        ((uint16_t *)out)[index] = (uint16_t)(value + 0.5);
+        break;
+    case PLR_UINT32:
+        ((uint32_t *)out)[index] = (uint32_t)(value + 0.5);
         break;
     }
 }

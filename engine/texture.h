@@ -13,7 +13,8 @@ typedef enum plr_texture_kind {
     PLR_TEXTURE_3D = 3,
     PLR_TEXTURE_CUBE = 6,
     PLR_TEXTURE_2D_SHADOW = 8 | 2,
-    PLR_TEXTURE_CUBE_SHADOW = 8 | 6
+    PLR_TEXTURE_CUBE_SHADOW = 8 | 6,
+    PLR_TEXTURE_3D_LABELS = 16 | 3 /* whole numbers, read by usampler3D; never filtered */
 } plr_texture_kind;
 
 /* Sides of textures that the engine draws into; GL may know a lower limit. */
@@ -30,7 +31,7 @@ typedef enum plr_texture_alpha {
 typedef enum plr_texture_use {
     PLR_USE_SURFACE, /* as the node says: repetition, filters, mipmaps */
     PLR_USE_VOLUME,  /* the same without mipmaps: a loop along a ray has no derivatives */
-    PLR_USE_CLAMPED  /* linear, clamped: transfer functions and voxels */
+    PLR_USE_CLAMPED  /* linear, clamped: transfer functions and voxels; labels: nearest */
 } plr_texture_use;
 
 typedef struct plr_texture {

@@ -17,6 +17,10 @@ static double alpha_at(const plr_image *image, size_t texel) {
         return ((const uint16_t *)image->samples)[at] / 65535.0;
     case PLR_FLOAT32:
         return (double)((const float *)image->samples)[at];
+    case PLR_UINT8:
+    case PLR_UINT16:
+    case PLR_UINT32:
+        break; /* labels have no alpha */
     }
     return 1;
 }
@@ -148,7 +152,8 @@ static size_t bytes_of(const plr_texture *texture) {
         return (size_t)texture->width * texture->height * faces * (texture->depth ? 4 : 8);
     for (uint32_t level = 0; level <= image->mipmaps; level++)
         samples += plr_image_level_samples(image, level);
-    return samples * (image->type == PLR_FLOAT32 ? 4 : 2); /* bytes go up as 16 bits */
+    bool widened = image->type == PLR_UNORM8; /* bytes go up as 16 bits */
+    return samples * plr_image_sample_size(widened ? PLR_UNORM16 : image->type);
 }
 
 /* Whether it fits beside the others; reports if not. */

@@ -15,8 +15,18 @@ static uint16_t *widen(const uint8_t *samples, size_t count) {
 }
 
 static const GLenum formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-static const GLenum unorm16_formats[] = {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16};
-static const GLenum float_formats[] = {GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F};
+
+/* How samples go up, by the type that they have then. */
+static const struct {
+    GLenum inner[4]; /* by components */
+    GLenum type;
+} uploads[] = {
+    [PLR_UNORM16] = {{GL_R16, GL_RG16, GL_RGB16, GL_RGBA16}, GL_UNSIGNED_SHORT},
+    [PLR_FLOAT32] = {{GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F}, GL_FLOAT},
+    [PLR_UINT8] = {{GL_R8UI}, GL_UNSIGNED_BYTE},
+    [PLR_UINT16] = {{GL_R16UI}, GL_UNSIGNED_SHORT},
+    [PLR_UINT32] = {{GL_R32UI}, GL_UNSIGNED_INT},
+};
 
 static GLsizei halved(uint32_t side, uint32_t level) {
     uint32_t half = level < 32 ? side >> level : 0;
@@ -44,19 +54,23 @@ static void define_level(const plr_gl *gl, const plr_texture *texture, GLint lev
     }
 }
 
+static bool is_labels(const plr_texture *texture) {
+    return texture->kind == PLR_TEXTURE_3D_LABELS;
+}
+
 static bool define_image(const plr_gl *gl, plr_texture *texture) {
     const plr_image *image = &texture->image;
-    bool is_float = image->type == PLR_FLOAT32;
-    GLint inner = (GLint)(is_float ? float_formats : unorm16_formats)[image->components - 1];
-    GLenum format = formats[image->components - 1], type = is_float ? GL_FLOAT : GL_UNSIGNED_SHORT;
+    plr_sample_type sent = image->type == PLR_UNORM8 ? PLR_UNORM16 : image->type;
+    GLint inner = (GLint)uploads[sent].inner[image->components - 1];
+    GLenum format = is_labels(texture) ? GL_RED_INTEGER : formats[image->components - 1];
     const char *samples = image->samples;
     for (uint32_t level = 0; level <= image->mipmaps; level++) {
         size_t count = plr_image_level_samples(image, level);
         uint16_t *wide = NULL;
         if (image->type == PLR_UNORM8 && !(wide = widen((const uint8_t *)samples, count)))
             return false;
-        size_t bytes = count * (is_float ? sizeof(float) : sizeof(uint16_t));
-        define_level(gl, texture, (GLint)level, inner, format, type,
+        size_t bytes = count * plr_image_sample_size(sent);
+        define_level(gl, texture, (GLint)level, inner, format, uploads[sent].type,
                      wide ? (const char *)wide : samples, bytes / 6);
         free(wide);
         samples += count * plr_image_sample_size(image->type);
@@ -80,13 +94,14 @@ static void set_swizzle(const plr_gl *gl, const plr_texture *texture, GLenum tar
     gl->TexParameteriv(target, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
 }
 
-/* Without a sampler object: linear, no mipmaps but those of the file. */
+/* Without a sampler object: linear or nearest, no mipmaps but those of the file. */
 static void set_parameters(const plr_gl *gl, const plr_texture *texture, GLenum target) {
     static const GLenum wraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
     for (int i = 0; i < 3; i++)
         gl->TexParameteri(target, wraps[i], GL_CLAMP_TO_EDGE);
-    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    GLint filter = is_labels(texture) ? GL_NEAREST : GL_LINEAR; /* integers have no other */
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
     gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, (GLint)texture->image.mipmaps);
     set_swizzle(gl, texture, target);
 }

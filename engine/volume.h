@@ -23,9 +23,10 @@ typedef enum plr_voxel_type {
  * the front or back, z up. */
 typedef enum plr_volume_space {
     PLR_SPACE_UNKNOWN,
-    PLR_SPACE_RAS, /* right, anterior, superior: NIfTI */
-    PLR_SPACE_LAS, /* left, anterior, superior */
-    PLR_SPACE_LPS  /* left, posterior, superior: DICOM */
+    PLR_SPACE_RAS,        /* right, anterior, superior: NIfTI */
+    PLR_SPACE_LAS,        /* left, anterior, superior */
+    PLR_SPACE_LPS,        /* left, posterior, superior: DICOM */
+    PLR_SPACE_LEFT_HANDED /* nothing else is known of it */
 } plr_volume_space;
 
 /* Voxels as the file stores them (native byte order), first axis fastest, components innermost.
@@ -46,6 +47,7 @@ typedef struct plr_volume {
     double origin[3];        /* centre of voxel (0,0,0) */
     double metres;           /* per unit of directions and origin; 0 if the file does not say */
     plr_volume_space space;
+    bool unplaced; /* the file does not say where: the origin means nothing */
 } plr_volume;
 
 /* Reads NRRD or NIfTI-1 from the bytes of a file (gunzipped or not) that the scene loaded; a
@@ -66,6 +68,13 @@ double plr_volume_value(const plr_volume *volume, uint32_t x, uint32_t y, uint32
  * volume's minimum..maximum), clamped, NaN as 0. UNORM16 for 8-bit data whose range is 0..255
  * (value * 257, exact), FLOAT32 otherwise. NULL-safe, false without memory. */
 bool plr_volume_to_image(const plr_volume *volume, const double range[2], plr_image *image);
+
+/* One component of the voxels as segment numbers, in the narrowest of PLR_UINT8, PLR_UINT16 and
+ * PLR_UINT32 that holds them: the stored values, without slope and intercept. Negative numbers,
+ * NaN and what exceeds 32 bits become 0, fractions are rounded, both with a warning at `place`.
+ * NULL-safe; false without memory or such a component. */
+bool plr_volume_to_labels(const plr_volume *volume, uint32_t component, plr_place place,
+                          plr_image *image, plr_diags *diags);
 
 /* The 99th percentile of the non-zero magnitudes of the gradient at voxel centres of component mean
  * (L, or the mean of RGB), in value per unit length, central differences clamped at the border;
