@@ -336,13 +336,15 @@ static void set_geometry(const nifti *header, plr_volume *volume) {
         set_affine(header, volume);
     else if (read_integer(header, at->qform, at->code_width) > 0)
         set_quaternion(header, sides, volume);
+    else /* method 1: the sides of a voxel, and no relation to any space */
+        volume->unplaced = true;
     volume->has_geometry = true;
     for (int i = 0; i < 9; i++)
         if (!isfinite(volume->directions[i / 3][i % 3]) || !isfinite(volume->origin[i % 3]))
             volume->has_geometry = false;
     int64_t unit = read_integer(header, at->units, at->units_width) & 7;
     volume->metres = unit < 4 ? metres[unit] : 0;
-    volume->space = PLR_SPACE_RAS;
+    volume->space = volume->unplaced ? PLR_SPACE_UNKNOWN : PLR_SPACE_RAS;
 }
 
 /* ---- values ---- */

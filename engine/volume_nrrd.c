@@ -244,7 +244,7 @@ static const name_row spaces[] = {
     {"lps", 24 + PLR_SPACE_LPS},
     {"scanner-xyz", 24},
     {"3d-right-handed", 24},
-    {"3d-left-handed", 24},
+    {"3d-left-handed", 24 + PLR_SPACE_LEFT_HANDED},
     {"right-anterior-superior-time", 32},
     {"rast", 32},
     {"left-anterior-superior-time", 32},

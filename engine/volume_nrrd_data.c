@@ -421,7 +421,8 @@ static void set_geometry(const nrrd *header, plr_volume *volume) {
     }
     volume->has_geometry = directions || spacings;
     volume->space = header->space;
-    if (directions && header->origin_count == 3)
+    volume->unplaced = !directions || header->origin_count != 3;
+    if (!volume->unplaced)
         memcpy(volume->origin, header->origin, sizeof volume->origin);
     if (directions)
         apply_space_units(header, volume);

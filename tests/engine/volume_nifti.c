@@ -168,7 +168,7 @@ static void test_geometry(void) {
     CHECK(read_header(&h, "a", 1, &v, NULL));
     CHECK(v.has_geometry && has_direction(&v, 0, 2, 0, 0) && has_direction(&v, 1, 0, 3, 0) &&
           has_direction(&v, 2, 0, 0, 4));
-    CHECK(v.metres == 1e-6 && v.space == PLR_SPACE_RAS);
+    CHECK(v.metres == 1e-6 && v.unplaced && v.space == PLR_SPACE_UNKNOWN);
     plr_volume_free(&v);
     /* a quarter turn around z: x to y, y to -x; qfac -1 turns the third axis round */
     put_bits(&h, 252, 1, 2);
@@ -176,6 +176,7 @@ static void test_geometry(void) {
     put_float(&h, 268, 10);
     put_float(&h, 276, -30);
     CHECK(read_header(&h, "a", 1, &v, NULL));
+    CHECK(v.space == PLR_SPACE_RAS && !v.unplaced);
     CHECK(has_direction(&v, 0, 0, 2, 0) && has_direction(&v, 1, -3, 0, 0) &&
           has_direction(&v, 2, 0, 0, -4));
     CHECK(v.origin[0] == 10 && v.origin[1] == 0 && v.origin[2] == -30);
