@@ -27,6 +27,10 @@ x3d_failure x3d_locate(plr_scene *scene, const char *folder, const char *referre
 /* Reads and, if asked, unpacks. `data` is of x3d_block_new. */
 x3d_failure x3d_read_located(plr_scene *scene, const x3d_located *located, bool gunzip, char **data,
                              size_t *length);
+/* The names of the files in a folder, each with its NUL, in the order of their bytes; no hidden
+ * ones. `bytes->name` is left alone. */
+x3d_failure x3d_list_located(plr_scene *scene, const x3d_located *located, size_t limit,
+                             plr_bytes *bytes);
 /* Reads a path as it is, wherever it leads: the file that the caller names. */
 x3d_failure x3d_read_path(plr_scene *scene, const char *path, char **data, size_t *length);
 

@@ -228,6 +228,55 @@ bool plr_scene_load_beside(plr_scene *scene, const char *referrer, const char *n
     return !failure.text;
 }
 
+/* ---- Folders ---- */
+
+/* How much of a url names the folder, the last '/' included; 0: it names none. */
+static size_t folder_length(const plr_string *url) {
+    size_t start;
+    const char *mark = url->length ? memchr(url->text, '#', url->length) : NULL;
+    size_t length = mark ? (size_t)(mark - url->text) : url->length;
+    bool ends = length && url->text[length - 1] == '/' && length < 4096;
+    return ends && !is_data(url, &start) ? length : 0;
+}
+
+bool plr_url_is_folder(const plr_string *url) {
+    return folder_length(url) > 0;
+}
+
+static x3d_failure list_url(plr_scene *scene, const plr_string *url, size_t limit, plr_bytes *names,
+                            const char **name) {
+    const x3d_file *file = x3d_file_of_name(scene, url->origin.file);
+    x3d_located located;
+    x3d_failure failure =
+        x3d_locate(scene, file->folder, file->name, url->text, folder_length(url), &located);
+    *name = located.name;
+    if (!failure.text)
+        failure = x3d_list_located(scene, &located, limit, names);
+    if (failure.text)
+        return failure;
+    names->name = x3d_block_copy(&scene->allocator, located.name, strlen(located.name));
+    return names->name ? failure : (x3d_failure){PLR_CODE_NO_MEMORY, "does not fit into memory"};
+}
+
+bool plr_scene_list(plr_scene *scene, const plr_string *url, size_t limit, plr_bytes *names,
+                    plr_diags *diags) {
+    entry e;
+    *names = (plr_bytes){0};
+    enter(&e, scene, diags);
+    if (setjmp(e.out_of_memory) != 0) {
+        plr_bytes_free(names);
+        return out_of_memory(&e, scene, place_of(url));
+    }
+    const char *name;
+    x3d_failure failure = list_url(scene, url, limit, names, &name);
+    if (failure.text) {
+        plr_bytes_free(names);
+        x3d_report(scene, failure.code, place_of(url), "'%.300s' %s", name, failure.text);
+    }
+    leave(&e, scene);
+    return !failure.text;
+}
+
 void plr_bytes_free(plr_bytes *bytes) {
     x3d_block_free(bytes->data);
     x3d_block_free(bytes->name);

@@ -181,6 +181,9 @@ PLR_API const char *plr_scene_meta(const plr_scene *scene, size_t index, const c
 /* Whether the scene uses a node or field that only the volume proposal of 2005 has; `where` (may be
  * NULL) is then set to the first place that does. */
 PLR_API bool plr_scene_uses_2005(const plr_scene *scene, plr_place *where);
+/* Gives fields of volume nodes that the file leaves out the defaults of the proposal of 2005, or
+ * those of the final standard, which they have at first. Fields that are given stay as they are. */
+PLR_API void plr_scene_set_2005(plr_scene *scene, bool proposal);
 /* One line of a file that the scene was read from (newline excluded), or NULL; for messages. */
 PLR_API const char *plr_scene_line(const plr_scene *scene, const char *file, uint32_t line,
                                    size_t *length);
@@ -210,6 +213,15 @@ PLR_API bool plr_scene_load_first(plr_scene *scene, const plr_field *urls, bool 
 PLR_API bool plr_scene_load_beside(plr_scene *scene, const char *referrer, const char *name,
                                    bool gunzip, plr_place place, plr_bytes *bytes,
                                    plr_diags *diags);
+/* The files in the folder that a url means: one that ends with '/', or with "/#" and a name, which
+ * is left to the caller. Hidden files are left out. `names->data` are their names, each ended by a
+ * NUL, in the order of their bytes, at most `limit`; each may be read with plr_scene_load_beside,
+ * where `names->name`, which ends with '/', is the referrer. False where the url means no folder,
+ * or it may not be read (reported). Free with plr_bytes_free. */
+PLR_API bool plr_scene_list(plr_scene *scene, const plr_string *url, size_t limit, plr_bytes *names,
+                            plr_diags *diags);
+/* Whether a url means a folder. */
+PLR_API bool plr_url_is_folder(const plr_string *url);
 PLR_API void plr_bytes_free(plr_bytes *bytes);
 
 /* Source code from the url field of an EffectPart, ShaderPart or the like: inline text ("data:..."

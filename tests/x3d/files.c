@@ -303,6 +303,78 @@ static void test_beside(void) {
     plr_diags_destroy(&diags);
 }
 
+/* What a folder holds, with '|' after each name, or the code of the fault. */
+static void check_folder(const char *url, size_t limit, const char *expected) {
+    char text[2000], got[500] = "";
+    snprintf(text, sizeof text, CLASSIC("ImageTexture3D { url \"%s\" }"), url);
+    plr_diags *diags = plr_diags_create(NULL);
+    plr_scene *scene = plr_scene_parse(text, strlen(text), "scene/s.x3dv", NULL, diags);
+    const plr_string *string = plr_node_field(plr_scene_root(scene, 0), "url")->value.strings;
+    plr_bytes names, bytes;
+    if (plr_scene_list(scene, string, limit, &names, diags)) {
+        for (const char *name = names.data; name < names.data + names.length;
+             name += strlen(name) + 1) {
+            bool read =
+                plr_scene_load_beside(scene, names.name, name, false, (plr_place){0}, &bytes, NULL);
+            snprintf(got + strlen(got), sizeof got - strlen(got), "%s%s|", name, read ? "" : "!");
+            plr_bytes_free(&bytes);
+        }
+        CHECK_INT(names.data[names.length], 0);
+    } else {
+        snprintf(got, sizeof got, "%s", plr_code_text(plr_diags_get(diags, 0)->code));
+        CHECK_INT(plr_diags_get(diags, 0)->place.line, 3);
+    }
+    TAP_RESULT(strcmp(got, expected) == 0, "folder %s: %s", url, expected);
+    if (strcmp(got, expected) != 0)
+        printf("#   %s\n", got);
+    plr_bytes_free(&names);
+    plr_scene_destroy(&scene);
+    plr_diags_destroy(&diags);
+}
+
+static void test_folders(void) {
+    char absolute[200];
+    mkdir("scene/scan", 0777), mkdir("scene/scan/deeper", 0777), mkdir("scene/none", 0777);
+    const char *const files[] = {"b", "a", "c10", ".hidden"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "scene/scan/%s", files[i]);
+        write_file(name, "data");
+    }
+    CHECK(symlink("../../outside/f", "scene/scan/out") == 0);
+    CHECK(symlink("../in/f", "scene/scan/link") == 0);
+    CHECK(symlink("scan", "scene/again") == 0);
+    check_folder("scan/", 10, "a|b|c10|link|out!|");
+    check_folder("scan/", 5, "a|b|c10|link|out!|");
+    check_folder("scan/", 4, "limit");
+    check_folder("scan/#1.2.3", 10, "a|b|c10|link|out!|");
+    check_folder("again/", 10, "a|b|c10|link|out!|");
+    check_folder("none/", 10, "");
+    check_folder("scan", 10, "missing-file");
+    check_folder("gone/", 10, "missing-file");
+    check_folder("in/f/", 10, "missing-file");
+    check_folder("folder/", 10, "not-allowed");
+    check_folder("../outside/", 10, "not-allowed");
+    check_folder("/", 10, "not-allowed");
+    check_folder("http://example.org/", 10, "not-allowed");
+    snprintf(absolute, sizeof absolute, "%s/scene/scan/", top);
+    check_folder(absolute, 10, "a|b|c10|link|out!|");
+}
+
+static void test_urls_of_folders(void) {
+    const struct {
+        const char *text;
+        bool folder;
+    } urls[] = {{"a/", true},   {"/", true},        {"a/#b", true},      {"a/#b/c", true},
+                {"a", false},   {"", false},        {"#a/", false},      {"a#b/", false},
+                {"a/b", false}, {"data:,/", false}, {"file:///a/", true}};
+    for (size_t i = 0; i < sizeof urls / sizeof *urls; i++) {
+        const plr_string url = {.text = urls[i].text, .length = strlen(urls[i].text)};
+        TAP_RESULT(plr_url_is_folder(&url) == urls[i].folder, "'%s' means a %s", urls[i].text,
+                   urls[i].folder ? "folder" : "file");
+    }
+}
+
 int main(void) {
     if (!mkdtemp(top) || chdir(top) != 0)
         return 1;
@@ -314,6 +386,8 @@ int main(void) {
     test_network();
     test_gzip();
     test_beside();
+    test_folders();
+    test_urls_of_folders();
     if (chdir("/") == 0)
         remove_tree(top);
     return tap_done();
