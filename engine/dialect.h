@@ -9,9 +9,12 @@ enum {
     PLR_DIALECT_2005 = 2005
 };
 
-/* The reading of the scene's volumes: `asked` if not 0, else that of 2005 where a volume or one of
- * its styles has a node or field that only the proposal has. One line of information says which,
- * where it is not the final standard's without being asked for. */
-int plr_dialect(plr_scene *scene, const plr_flat *flat, int asked, plr_diags *diags);
+/* Gives the volume nodes the defaults of a dialect: of `asked` if not 0, else of the proposal of
+ * 2005 where a volume or one of its styles has a node or field that only the proposal has, else of
+ * the final standard. Returns which. */
+int plr_dialect_set(plr_scene *scene, int asked);
+/* One line of information says which dialect the volumes of a scene are read in, where it is not
+ * the final standard's without being asked for. */
+void plr_dialect_report(const plr_scene *scene, const plr_flat *flat, int asked, plr_diags *diags);
 
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/changes.h"
+#include "engine/dialect.h"
 #include "engine/targets.h"
 
 /* ---- The scene at a time ---- */
@@ -48,6 +49,7 @@ bool plr_view_live(plr_view *view, plr_matrix *eye_to_world, plr_diags *diags) {
         longjmp(*view->arena.out_of_memory, 1);
     }
     plr_flat flat;
+    view->desc.dialect = plr_dialect_set(view->scene, view->asked_dialect);
     if (!view->made)
         find_first(view, &arena);
     plr_viewpoint used = view->first;

@@ -55,7 +55,8 @@ bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *di
         return false;
     }
     view->viewpoint = plr_flat_bound(&view->flat, view->viewpoint);
-    view->desc.dialect = plr_dialect(view->scene, &view->flat, view->asked_dialect, diags);
+    if (!view->made)
+        plr_dialect_report(view->scene, &view->flat, view->asked_dialect, diags);
     plr_world_prepare(view, diags);
     plr_targets_prepare(view, diags);
     plr_unreached_report(&view->composer);

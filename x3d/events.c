@@ -36,6 +36,11 @@ void x3d_events_was_set(plr_scene *scene, plr_node *node, size_t index, bool sam
     field->has_shown = false;
 }
 
+plr_field *x3d_events_given(plr_node *node, size_t index) {
+    x3d_event_field *field = node->events ? node->events->fields[index] : NULL;
+    return field && field->changed ? &field->original : &node->fields[index];
+}
+
 bool plr_scene_changes(const plr_scene *scene, uint64_t since,
                        void (*visit)(void *user, plr_node *node, const plr_field *field),
                        void *user) {

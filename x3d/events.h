@@ -140,6 +140,9 @@ struct x3d_events {
 /* A setter has given the field a value, perhaps the same as before. */
 void x3d_events_was_set(plr_scene *scene, plr_node *node, size_t index, bool same);
 
+/* The field as file and setters gave it: events may have put another value into the node. */
+plr_field *x3d_events_given(plr_node *node, size_t index);
+
 /* ---- Building (events_graph.c) ---- */
 
 x3d_events *x3d_events_build(plr_scene *scene);
@@ -170,7 +173,7 @@ void *x3d_events_scratch(x3d_events *events, size_t size);
 /* The rows of each file end with a type of NULL. */
 extern const x3d_behaviour x3d_clock_behaviours[], x3d_logic_behaviours[],
     x3d_interpolator_behaviours[], x3d_spline_behaviours[], x3d_sensor_behaviours[],
-    x3d_bindable_behaviours[];
+    x3d_bindable_behaviours[], x3d_dialect_behaviours[];
 
 /* The next moment after `now` at which the clock starts, ends, stops, pauses, resumes or, where
  * somebody listens, begins a cycle; INFINITY: none. */

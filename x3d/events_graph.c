@@ -10,7 +10,8 @@
 static const x3d_behaviour *find_behaviour(const plr_node_info *info) {
     static const x3d_behaviour *const tables[] = {
         x3d_clock_behaviours,  x3d_logic_behaviours,  x3d_interpolator_behaviours,
-        x3d_spline_behaviours, x3d_sensor_behaviours, x3d_bindable_behaviours};
+        x3d_spline_behaviours, x3d_sensor_behaviours, x3d_bindable_behaviours,
+        x3d_dialect_behaviours};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
         for (const x3d_behaviour *row = tables[t]; row->type; row++)
             if (plr_node_info_is(info, row->type))

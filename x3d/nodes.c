@@ -36,6 +36,8 @@ enum {
 #define END_NODE
 #define ALIAS(alias, name, flags)
 #define FIELD_ALIAS(node, alias, field, flags)
+#define DEFAULT_2005(node, field, initial)
+#define DEFAULT_2005_FROM(node, field, other)
 static const plr_field_info fields[] = {
 #include "x3d/nodes.def"
 };
@@ -93,12 +95,26 @@ static const x3d_alias node_aliases[] = {
 static const x3d_alias field_aliases[] = {
 #include "x3d/nodes.def"
     {NULL, NULL, NULL, false}};
+#undef FIELD_ALIAS
+#undef DEFAULT_2005
+#undef DEFAULT_2005_FROM
+
+#define FIELD_ALIAS(node, alias, field, flags)
+#define DEFAULT_2005(node, field, initial) {#node, #field, initial, NULL},
+#define DEFAULT_2005_FROM(node, field, other) {#node, #field, NULL, #other},
+static const x3d_default_2005 defaults_2005[] = {
+#include "x3d/nodes.def"
+    {NULL, NULL, NULL, NULL}};
 
 const x3d_alias *x3d_node_aliases(void) {
     return node_aliases;
 }
 const x3d_alias *x3d_field_aliases(void) {
     return field_aliases;
+}
+
+const x3d_default_2005 *x3d_defaults_2005(void) {
+    return defaults_2005;
 }
 
 size_t plr_node_info_count(void) {

@@ -10,6 +10,15 @@ typedef struct x3d_alias {
     bool dialect_2005;
 } x3d_alias;
 
+/* What a field is in the dialect of 2005 where it is not given. */
+typedef struct x3d_default_2005 {
+    const char *node, *field;
+    const char *initial; /* in Classic VRML notation, or NULL: */
+    const char *from;    /* the field whose value it takes */
+} x3d_default_2005;
+
+/* Ends with a node of NULL. */
+const x3d_default_2005 *x3d_defaults_2005(void);
 /* Both end with an alias of NULL. */
 const x3d_alias *x3d_node_aliases(void);
 const x3d_alias *x3d_field_aliases(void);

@@ -189,6 +189,8 @@ static bool copy_body(copier *c) {
         copy->id = scene->node_count - 1;
         copy->owner = NULL;
         copy->instance = NULL;
+        if (copy->type && copy->type->others.count)
+            *PLR_PUSH(&scene->arena, &scene->two_dialects) = copy;
         copy->fields = PLR_NEW_ARRAY(&scene->arena, copy->field_count, plr_field);
         copy->field_capacity = copy->field_count;
         if (copy->field_count)

@@ -166,22 +166,27 @@ x3d_type *x3d_type_find(plr_scene *scene, const char *name, size_t length, plr_p
     return type;
 }
 
+void x3d_read_default(plr_scene *scene, const plr_node_info *info, const plr_field_info *row,
+                      const char *text, plr_field *field) {
+    const plr_place nowhere = {NULL, 0, 0};
+    x3d_view view = {.text = text, .length = strlen(text), .fixed = &nowhere};
+    x3d_lexer lexer;
+    x3d_lexer_init(&lexer, &view, true);
+    x3d_value_desc desc = {.type = row->type, .node = info->name, .field = row->name};
+    x3d_value_read(scene, &lexer, &desc, field);
+}
+
 static void make_defaults(plr_scene *scene, x3d_type *type) {
     const plr_node_info *info = type->info;
     plr_field *fields = PLR_NEW_ARRAY(&scene->arena, info->field_count, plr_field);
     for (size_t i = 0; i < info->field_count; i++) {
         const plr_field_info *row = &info->fields[i];
         fields[i] = (plr_field){.name = row->name, .type = row->type, .access = row->access};
-        if (!*row->initial || plr_type_kind(row->type) == PLR_NODE)
-            continue;
-        const plr_place nowhere = {NULL, 0, 0};
-        x3d_view view = {.text = row->initial, .length = strlen(row->initial), .fixed = &nowhere};
-        x3d_lexer lexer;
-        x3d_lexer_init(&lexer, &view, true);
-        x3d_value_desc desc = {.type = row->type, .node = info->name, .field = row->name};
-        x3d_value_read(scene, &lexer, &desc, &fields[i]);
+        if (*row->initial && plr_type_kind(row->type) != PLR_NODE)
+            x3d_read_default(scene, info, row, row->initial, &fields[i]);
     }
     type->defaults = fields;
+    x3d_find_other_defaults(scene, type);
 }
 
 /* ---- Nodes and fields ---- */
@@ -209,6 +214,8 @@ plr_node *x3d_node_new(plr_scene *scene, x3d_type *type, plr_place place) {
         return node;
     if (!type->defaults)
         make_defaults(scene, type);
+    if (type->others.count)
+        *PLR_PUSH(&scene->arena, &scene->two_dialects) = node;
     size_t count = type->info->field_count;
     node->written = type->info->name;
     node->fields = PLR_NEW_ARRAY(&scene->arena, count, plr_field);

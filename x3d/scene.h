@@ -11,10 +11,23 @@
 struct x3d_scope;
 struct x3d_proto;
 
+/* Default values that another dialect has. */
+typedef struct x3d_other_default {
+    size_t index; /* of the field */
+    size_t from;  /* the field whose value it takes; SIZE_MAX: none, it is: */
+    plr_field value;
+} x3d_other_default;
+
+typedef struct x3d_other_defaults {
+    x3d_other_default *items;
+    size_t count, capacity;
+} x3d_other_defaults;
+
 /* A node type of the table, as one scene uses it. */
 typedef struct x3d_type {
     const plr_node_info *info;
     plr_field *defaults;             /* parsed default values; NULL until the first use */
+    x3d_other_defaults others;       /* of the dialect of 2005; found with the former */
     const x3d_alias *const *aliases; /* of its fields; ends with NULL */
     size_t alias_count;
     const struct x3d_behaviour *behaviour; /* what it does in time; see events.h */
@@ -109,7 +122,9 @@ struct plr_scene {
     uint32_t node_count;
     bool uses_2005;
     plr_place place_2005;
-    struct x3d_events *events; /* NULL until a time is asked for */
+    bool is_2005;               /* the defaults are those of 2005 now */
+    x3d_node_list two_dialects; /* nodes whose type has other defaults there */
+    struct x3d_events *events;  /* NULL until a time is asked for */
     uint64_t revision;
     uint64_t set_revision; /* the last one that a setter made */
 };
@@ -129,6 +144,9 @@ void x3d_suggest(plr_scene *scene, plr_place place, const x3d_nearest *nearest);
 x3d_type *x3d_type_find(plr_scene *scene, const char *name, size_t length, plr_place place);
 /* A new node with default values; NULL when the limit of nodes is reached (reported). */
 plr_node *x3d_node_new(plr_scene *scene, x3d_type *type, plr_place place);
+/* Reads a default of the table into a field. */
+void x3d_read_default(plr_scene *scene, const plr_node_info *info, const plr_field_info *row,
+                      const char *text, plr_field *field);
 /* Counts one more node without a type; false at the limit. */
 bool x3d_node_count_up(plr_scene *scene, plr_place place);
 /* Index of a field by name or alias; SIZE_MAX: none. Notes the use of words of 2005. */
@@ -140,6 +158,8 @@ const plr_field_info *x3d_field_info(const plr_node *node, size_t index);
 plr_field *x3d_field_declare(plr_scene *scene, plr_node *node, const char *name, size_t length,
                              plr_type type, plr_access access, plr_place place);
 void x3d_uses_2005(plr_scene *scene, plr_place place);
+/* Finds what other defaults the type has in the dialect of 2005. */
+void x3d_find_other_defaults(plr_scene *scene, x3d_type *type);
 /* The file whose name this very pointer is; the main file if there is none. */
 x3d_file *x3d_file_of_name(const plr_scene *scene, const char *name);
 /* Appends a node to a value of nodes (its array grows by doubling, and is never shared). */
