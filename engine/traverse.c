@@ -32,16 +32,22 @@ static void add_light(walk *w, plr_node *node, const plr_matrix *matrix) {
     *PLR_PUSH(w->arena, lights) = (plr_light){.node = node, .to_world = *matrix};
 }
 
-static void visit_children(walk *w, plr_node *node, const char *name, const plr_matrix *matrix) {
+/* At most `most` nodes of a field; what is among them is in their scope. */
+static void visit_list(walk *w, plr_node *node, const char *name, size_t most,
+                       const plr_matrix *matrix) {
     const plr_field *children = plr_node_field(node, name);
     if (!children || plr_type_kind(children->type) != PLR_NODE)
         return;
     plr_scope *scope = PLR_NEW(w->arena, plr_scope), *outer = w->scope;
     scope->outer = outer;
     w->scope = scope;
-    for (size_t i = 0; i < children->count && w->visits <= MOST_VISITS; i++)
+    for (size_t i = 0; i < children->count && i < most && w->visits <= MOST_VISITS; i++)
         visit(w, children->value.nodes[i], matrix);
     w->scope = outer;
+}
+
+static void visit_children(walk *w, plr_node *node, const char *name, const plr_matrix *matrix) {
+    visit_list(w, node, name, SIZE_MAX, matrix);
 }
 
 static void visit_fog(walk *w, plr_node *node, const plr_matrix *matrix) {
@@ -105,23 +111,52 @@ static bool viewer_in(walk *w, const plr_matrix *matrix, plr_matrix *eye) {
     return true;
 }
 
+/* How far the viewer is from the field `center`, in the node's own coordinates; 0 where nobody
+ * looks.
+ */
+static double viewer_distance(walk *w, const plr_node *node, const plr_matrix *matrix) {
+    float c[3] = {0};
+    plr_matrix eye;
+    if (!viewer_in(w, matrix, &eye))
+        return 0;
+    plr_node_numbers(node, "center", c, 3);
+    double x = eye.m[12] - (double)c[0], y = eye.m[13] - (double)c[1], z = eye.m[14] - (double)c[2];
+    return sqrt(x * x + y * y + z * z);
+}
+
 /* ISO/IEC 19775-1 V4 23.4.3: the distance counts in the node's own coordinates. */
 static void visit_lod(walk *w, plr_node *node, const plr_matrix *matrix) {
     const plr_field *children = plr_node_field(node, "children");
     const char *name = children && children->count ? "children" : "level";
     const plr_field *levels = plr_node_field(node, name), *range = plr_node_field(node, "range");
     size_t level = 0;
-    plr_matrix eye;
-    if (range && range->count && viewer_in(w, matrix, &eye)) {
-        float c[3] = {0};
-        plr_node_numbers(node, "center", c, 3);
-        double x = eye.m[12] - (double)c[0], y = eye.m[13] - (double)c[1],
-               z = eye.m[14] - (double)c[2], distance = sqrt(x * x + y * y + z * z);
+    if (range && range->count) {
+        double distance = viewer_distance(w, node, matrix);
         while (level < range->count && distance >= (double)range->value.floats[level])
             level++;
     }
     if (levels && levels->count)
         visit_one(w, node, name, level < levels->count ? level : levels->count - 1, matrix);
+}
+
+/* The proposal of 2005 for volumes, 4.6: near by eight nodes at most, far away one. Its x3d/events
+ * tell the same (lowResActive). */
+static void visit_octants(walk *w, plr_node *node, const plr_matrix *matrix) {
+    enum {
+        OCTANTS = 8
+    };
+    const plr_field *high = plr_node_field(node, "highRes");
+    bool far =
+        w->flat->has_eye && viewer_distance(w, node, matrix) >= plr_node_number(node, "range");
+    w->flat->depends_on_viewer = true;
+    if (high && high->count > OCTANTS)
+        plr_diags_add(w->diags, PLR_CODE_NOT_DRAWN, high->place,
+                      "OctTree.highRes has %zu nodes; the first %d are drawn", high->count,
+                      OCTANTS);
+    if (far)
+        visit_list(w, node, "lowRes", 1, matrix);
+    else
+        visit_list(w, node, "highRes", OCTANTS, matrix);
 }
 
 static void cross(const double *a, const double *b, double *out) {
@@ -251,6 +286,7 @@ static const struct {
     {"Transform", visit_group},
     {"Switch", visit_switch},
     {"LOD", visit_lod},
+    {"OctTree", visit_octants},
     {"Billboard", visit_billboard},
     {"Collision", visit_group},
     {"X3DSensorNode", visit_sensor},

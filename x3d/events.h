@@ -82,6 +82,9 @@ struct x3d_event_node {
             bool inside;
         } sensor;
         struct {
+            bool told, far;
+        } octants;
+        struct {
             size_t current; /* 0: none yet, else one more than the index */
         } sequencer;
         struct {

@@ -166,7 +166,7 @@ static void build_routes(x3d_events *ev) {
 /* Outputs that tell of a change: to know them one has to have been there. */
 static bool tells_of_change(const char *field) {
     static const char *const names[] = {"isActive", "isPaused", "cycleTime", "enterTime",
-                                        "exitTime", "bindTime", "isBound"};
+                                        "exitTime", "bindTime", "isBound",   "lowResActive"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(field, names[i]) == 0)
             return true;

@@ -160,6 +160,28 @@ static void sense_sight(x3d_events *ev, x3d_event_node *node) {
     enter_or_leave(ev, node, inside);
 }
 
+/* An OctTree of the proposal of 2005 for volumes says which of its halves is seen: at first, and
+ * whenever that changes. Without a viewer it is the near one. */
+static void sense_range(x3d_events *ev, x3d_event_node *node) {
+    float c[3] = {0};
+    plr_matrix eye, seen;
+    bool far = false;
+    if (ev->viewer) {
+        memcpy(eye.m, ev->viewer->eye_to_world, sizeof eye.m);
+        plr_node_numbers(node->node, "center", c, 3);
+        double distance = 0;
+        if (seen_from(ev, node, &eye, &seen))
+            for (int i = 0; i < 3; i++)
+                distance = hypot(distance, seen.m[12 + i] - (double)c[i]);
+        far = distance >= plr_node_number(node->node, "range");
+    }
+    if (node->state.octants.told && far == node->state.octants.far)
+        return;
+    node->state.octants.told = true;
+    node->state.octants.far = far;
+    x3d_send_bool(ev, node, "lowResActive", far);
+}
+
 /* Everything is there from the start. */
 static void load(x3d_events *ev, x3d_event_node *node) {
     const plr_field *watched = plr_node_field(node->node, "children");
@@ -174,5 +196,6 @@ static void load(x3d_events *ev, x3d_event_node *node) {
 const x3d_behaviour x3d_sensor_behaviours[] = {{.type = "ProximitySensor", .step = sense_viewer},
                                                {.type = "TransformSensor", .step = sense_target},
                                                {.type = "VisibilitySensor", .step = sense_sight},
+                                               {.type = "OctTree", .step = sense_range},
                                                {.type = "LoadSensor", .start = load},
                                                {.type = NULL}};

@@ -101,6 +101,56 @@ static void test_others(void) {
     plr_scene_destroy(&scene);
 }
 
+/* 5 from the centre as the tree counts: 10 in the world. It tells at first, and when it changes. */
+static void test_octants(void) {
+    const char *text =
+        CLASSIC("Transform { translation 1 0 0 scale 2 2 2 children DEF O OctTree { center 0 0 1 "
+                "range 5 highRes DEF G Group { } } }\n"
+                "DEF FAR OctTree { range 0 } DEF S Group { visible FALSE }\n"
+                "DEF T TimeSensor { cycleInterval 10 } DEF B BooleanFilter { } DEF C TimeTrigger { "
+                "}\n"
+                "ROUTE O.lowResActive TO G.visible ROUTE O.lowResActive TO B.set_boolean\n"
+                "ROUTE O.lowResActive TO S.bboxDisplay\n"
+                "ROUTE B.inputTrue TO C.set_boolean ROUTE C.triggerTime TO T.startTime");
+    plr_viewer viewer = viewer_at((double[]){1, 0, 11.9}, 0);
+    plr_scene *scene = scene_seen(text, 3, &viewer);
+    check_field(scene, "near", "O.lowResActive", "0");
+    check_field(scene, "it tells at first", "G.visible", "0");
+    check_field(scene, "a range of 0", "FAR.lowResActive", "1");
+    check_field(scene, "near", "T.isActive", "0");
+    viewer = viewer_at((double[]){1, 0, 12}, 0);
+    plr_scene_set_time(scene, 3, &viewer, NULL);
+    check_field(scene, "far", "O.lowResActive", "1");
+    check_field(scene, "far", "G.visible", "1");
+    check_field(scene, "far", "S.bboxDisplay", "1");
+    check_field(scene, "far from the start, and told no more", "T.elapsedTime", "3");
+    plr_scene_set_time(scene, 3, NULL, NULL);
+    check_field(scene, "nobody looks", "FAR.lowResActive", "0");
+    plr_scene_destroy(&scene);
+}
+
+/* The tree moves away from the viewer, 5 at time 5. */
+static void test_octants_move(void) {
+    const char *text =
+        CLASSIC("DEF T TimeSensor { loop TRUE cycleInterval 100 }\n"
+                "DEF I PositionInterpolator { key [0 1] keyValue [0 0 0 100 0 0] }\n"
+                "DEF M Transform { children DEF O OctTree { range 5 } }\n"
+                "DEF C TimeSensor { cycleInterval 50 } DEF G TimeTrigger { } DEF F BooleanFilter { "
+                "}\n"
+                "ROUTE T.fraction_changed TO I.set_fraction ROUTE I.value_changed TO "
+                "M.translation\n"
+                "ROUTE O.lowResActive TO F.set_boolean ROUTE F.inputTrue TO G.set_boolean\n"
+                "ROUTE G.triggerTime TO C.startTime");
+    plr_viewer viewer = viewer_at((double[]){0, 0, 0}, 0);
+    plr_scene *scene = scene_seen(text, 4.9, &viewer);
+    check_field(scene, "still near", "O.lowResActive", "0");
+    check_field(scene, "still near", "C.isActive", "0");
+    plr_scene_set_time(scene, 9, &viewer, NULL);
+    check_field(scene, "gone", "O.lowResActive", "1");
+    check_field(scene, "when it went", "C.elapsedTime", "4");
+    plr_scene_destroy(&scene);
+}
+
 static void test_camera(void) {
     const char *text =
         CLASSIC("DEF V Viewpoint { } DEF W Viewpoint { } DEF E Effect { inputOnly SFMatrix4f m "
@@ -165,6 +215,8 @@ int main(void) {
     test_started_at_load();
     test_carried_sensor();
     test_others();
+    test_octants();
+    test_octants_move();
     test_camera();
     test_hostile();
     return tap_done();
