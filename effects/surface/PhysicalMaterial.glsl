@@ -1,5 +1,5 @@
 /* The metallic-roughness material. ISO/IEC 19775-1 V4 17.2.2.7 takes it from glTF 2.0, whose appendix B
- * has the formulas: a diffuse base under a rough dielectric interface, mixed with a rough metal. All
+ * has the formulas (library/physical.glsl): a diffuse base under a rough dielectric interface, mixed with a rough metal. All
  * light is direct: a light brings no ambient part (17.2.2.7 has none). */
 
 #if !HAS_COLORS || COLORS_MODULATE
@@ -23,27 +23,9 @@ struct MaterialInfo {
 MaterialInfo material;
 vec2 metal_rough;
 
-/* glTF 2.0 B.3: the reflected part of the light from `light_dir`, times the cosine. */
 vec3 material_reflection(MaterialInfo material, vec4 vertex_eye, vec3 normal_eye, vec3 light_dir) {
-    float n_dot_l = dot(normal_eye, light_dir);
-    if (n_dot_l <= 0.0)
-        return vec3(0.0);
-    vec3 view = direction_to_viewer(vertex_eye);
-    vec3 between = unit_or_zero(light_dir + view);
-    float n_dot_v = abs(dot(normal_eye, view)), n_dot_h = max(dot(normal_eye, between), 0.0);
-    float v_dot_h = max(dot(view, between), 0.0);
-    float a2 = material.alpha * material.alpha;
-
-    /* B.3.2: D, Trowbridge-Reitz/GGX, and V = G / (4 |N.L| |N.V|), Smith */
-    float spread = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
-    float d = a2 / (3.14159265358979 * spread * spread);
-    float v = 1.0 / ((n_dot_l + sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l)) *
-                     (n_dot_v + sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v)));
-    /* B.3.4, F: Schlick's approximation */
-    float x = 1.0 - v_dot_h, x2 = x * x;
-    vec3 f = material.specular + (1.0 - material.specular) * (x2 * x2 * x);
-    /* B.3.5 */
-    return n_dot_l * ((1.0 - f) * material.diffuse / 3.14159265358979 + f * (v * d));
+    return physical_reflection(material.diffuse, material.specular, material.alpha, vertex_eye, normal_eye,
+                               light_dir);
 }
 #endif
 

@@ -65,6 +65,12 @@ static size_t read_files(linked *l, const char *path, const plr_source **list) {
     return count;
 }
 
+/* Styles have a unit in common. */
+static bool is_style(const char *path) {
+    size_t length = strlen(path), tail = strlen("VolumeStyle");
+    return strncmp(path, "volume/", 7) == 0 && strcmp(path + length - tail, "VolumeStyle") == 0;
+}
+
 static size_t read_library(linked *l) {
     const char *name, *text;
     size_t count = 0;
@@ -93,6 +99,8 @@ static void link_recipe(linked *l, const recipe *r) {
             list[units++] = read_text(l, PLR_GEOMETRY, p->path, p->geometry_text);
         if (!units)
             units = read_files(l, p->path, list);
+        if (is_style(p->path))
+            units += read_files(l, "volume/style", list + units);
         l->effects[count] =
             (plr_effect){.name = p->path,
                          .sources = list,
@@ -246,8 +254,19 @@ static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
                                      {"LEADING", "1"},
                                      {"HAS_transferFunction", "1"},
                                      {"transferFunction_DIMENSIONS", "2"}};
-static const plr_define lit_style[] = {{"lighting", "1"}, {"HAS_material", "1"}};
+static const plr_define lit_style[] = {
+    {"lighting", "1"}, {"shadows", "0"}, {"HAS_material", "1"}, {"material_Material", "1"}};
 static const plr_define flat_style[] = {{"lighting", "0"}, {"HAS_material", "0"}};
+static const plr_define own_normals[] = {{"surfaceNormals_DIMENSIONS", "3"},
+                                         {"surfaceNormals_COMPONENTS", "3"}};
+static const plr_define flat_normals[] = {{"surfaceNormals_DIMENSIONS", "2"},
+                                          {"surfaceNormals_COMPONENTS", "3"}};
+static const plr_define plain_boundary[] = {{"HAS_transferFunction", "0"}};
+static const plr_define old_boundary[] = {{"HAS_transferFunction", "1"},
+                                          {"transferFunction_DIMENSIONS", "3"},
+                                          {"voxels_COMPONENTS", "3"},
+                                          {"GIVEN_gradientColor", "1"}};
+static const plr_define old_edge[] = {{"GIVEN_contribution", "1"}};
 static const plr_define opaque_colors[] = {{"WITH_ALPHA", "0"}};
 static const plr_define irradiance[] = {{"HAS_diffuseTexture", "1"},
                                         {"diffuseTexture_DIMENSIONS", "6"}};
@@ -502,6 +521,59 @@ static const recipe recipes[] = {
       {.path = "lights/SpotLight"}},
      DEFINES(one_volume),
      .present = "normal_eye MaterialInfo"},
+    {"boundary enhancement",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/BoundaryEnhancementVolumeStyle", DEFINES(plain_boundary)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "gradientUnit pow",
+     .absent = "position_eye normal_eye gradientColor transferFunction"},
+    {"boundary enhancement of 2005",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/BoundaryEnhancementVolumeStyle", DEFINES(old_boundary)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "gradientColor contribution style_transfer",
+     .absent = "position_eye normal_eye"},
+    {"styles of directions",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/SilhouetteEnhancementVolumeStyle"},
+      {.path = "volume/EdgeEnhancementVolumeStyle"},
+      {.path = "volume/EdgeEnhancementVolumeStyle", DEFINES(old_edge)},
+      {.path = "volume/CartoonVolumeStyle", DEFINES(flat_normals)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "normal_eye position_eye mix_in_hsv",
+     .absent = "gradientUnit surfaceNormals MaterialInfo"},
+    {"normals of a style's own",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/SilhouetteEnhancementVolumeStyle", DEFINES(own_normals)},
+      {.path = "volume/CartoonVolumeStyle", DEFINES(own_normals)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "surfaceNormals",
+     .absent = "normal_eye gradient"},
+    {"warm and cool",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/ToneMappedVolumeStyle"},
+      {.path = "volume/Composite"},
+      {.path = "lights/DirectionalLight"},
+      {.path = "lights/PointLight"}},
+     DEFINES(one_volume),
+     .present = "normal_eye MaterialInfo warmColor",
+     .absent = "phong_reflection"},
+    {"warm and cool without light",
+     "volume/raycaster",
+     {{.path = "volume/Volume", DEFINES(scalar)},
+      {.path = "volume/ToneMappedVolumeStyle"},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .absent = "normal_eye MaterialInfo warmColor position_eye"},
     {"two volumes",
      "volume/raycaster",
      {{.path = "volume/Volume", DEFINES(scalar)},
