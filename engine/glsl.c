@@ -8,6 +8,7 @@
 #include <glslang/Public/resource_limits_c.h>
 
 #include "engine/glsl_log.h"
+#include "engine/spirv.h"
 
 /* glslang keeps its tables of built-ins for the process. Making them costs far more than a check,
  * so they are made once, at the first use, and stay. */
@@ -127,50 +128,6 @@ bool plr_glsl_check(const char *const texts[PLR_STAGE_COUNT],
 
 /* ---- Counting ---- */
 
-/* Ranges of SPIR-V opcodes (SPIR-V specification, section 3.42). */
-typedef struct opcodes {
-    uint16_t first, last;
-} opcodes;
-
-/* Inside functions, but no work: structure, names of lines, storage. */
-static const opcodes idle[] = {
-    {0, 0},     /* OpNop */
-    {8, 8},     /* OpLine */
-    {54, 56},   /* OpFunction, OpFunctionParameter, OpFunctionEnd */
-    {59, 59},   /* OpVariable */
-    {246, 248}, /* OpLoopMerge, OpSelectionMerge, OpLabel */
-    {317, 317}, /* OpNoLine */
-};
-
-/* OpImageSample* .. OpImageDrefGather, and the sparse forms. */
-static const opcodes fetching[] = {{87, 97}, {305, 314}};
-
-static bool among(const opcodes *list, size_t count, unsigned opcode) {
-    for (size_t i = 0; i < count; i++)
-        if (opcode >= list[i].first && opcode <= list[i].last)
-            return true;
-    return false;
-}
-
-static void count_words(const unsigned *words, size_t size, uint32_t *instructions,
-                        uint32_t *fetches) {
-    enum {
-        HEADER = 5,
-        FUNCTION = 54,
-        FUNCTION_END = 56
-    };
-    bool inside = false;
-    for (size_t at = HEADER; at < size;) {
-        unsigned opcode = words[at] & 0xffff, length = words[at] >> 16;
-        inside = (inside || opcode == FUNCTION) && opcode != FUNCTION_END;
-        if (inside && !among(idle, sizeof idle / sizeof idle[0], opcode))
-            ++*instructions;
-        if (inside && among(fetching, sizeof fetching / sizeof fetching[0], opcode))
-            ++*fetches;
-        at += length ? length : 1;
-    }
-}
-
 /* Below 3.30, asking glslang for SPIR-V makes it print its built-ins on standard output. */
 static bool is_countable(const char *text) {
     static const char directive[] = "#version";
@@ -179,32 +136,61 @@ static bool is_countable(const char *text) {
            strtol(text + sizeof directive - 1, NULL, 10) >= 330;
 }
 
-bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, uint32_t *fetches) {
-    glslang_program_t *program = NULL;
+/* The SPIR-V of a text, with functions inlined and without what is dead; with_lines: with names and
+ * lines. The caller deletes the program; NULL if the text does not compile. */
+static glslang_program_t *to_spirv(const char *text, plr_stage stage, bool with_lines) {
     plr_glsl_messages messages;
-    *instructions = *fetches = 0;
     if (!is_countable(text))
-        return false;
+        return NULL;
     pthread_once(&once, initialize);
     glslang_shader_t *shader = parse(&counting, text, stage, &messages);
     plr_glsl_messages_free(&messages);
-    bool counted = shader && (program = glslang_program_create());
-    if (counted) {
+    glslang_program_t *program = shader ? glslang_program_create() : NULL;
+    bool fine = false;
+    if (program) {
         glslang_program_add_shader(program, shader);
-        counted = glslang_program_link(program, (int)counting.messages) &&
-                  glslang_program_map_io(program);
+        fine = glslang_program_link(program, (int)counting.messages) &&
+               glslang_program_map_io(program);
     }
-    if (counted) {
+    if (fine) {
         /* only the passes for size inline functions and drop what is dead */
-        glslang_spv_options_t options = {.strip_debug_info = true, .optimize_size = true};
+        glslang_spv_options_t options = {.generate_debug_info = with_lines,
+                                         .strip_debug_info = !with_lines,
+                                         .optimize_size = true};
         glslang_program_SPIRV_generate_with_options(program, stages[stage], &options);
-        size_t size = glslang_program_SPIRV_get_size(program);
-        count_words(glslang_program_SPIRV_get_ptr(program), size, instructions, fetches);
-        counted = size > 0;
+        fine = glslang_program_SPIRV_get_size(program) > 0;
     }
-    if (program)
-        glslang_program_delete(program);
     if (shader)
         glslang_shader_delete(shader);
-    return counted;
+    if (program && !fine) {
+        glslang_program_delete(program);
+        program = NULL;
+    }
+    return program;
+}
+
+bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, uint32_t *fetches) {
+    *instructions = *fetches = 0;
+    glslang_program_t *program = to_spirv(text, stage, false);
+    if (!program)
+        return false;
+    plr_spirv_count(glslang_program_SPIRV_get_ptr(program), glslang_program_SPIRV_get_size(program),
+                    instructions, fetches);
+    glslang_program_delete(program);
+    return true;
+}
+
+bool plr_glsl_fetches(const char *text, plr_stage stage,
+                      void (*visit)(void *user, uint32_t line, const char *sampler), void *user) {
+    glslang_program_t *program = to_spirv(text, stage, true);
+    if (!program)
+        return false;
+    size_t count;
+    plr_spirv_fetch *fetches = plr_spirv_fetches(glslang_program_SPIRV_get_ptr(program),
+                                                 glslang_program_SPIRV_get_size(program), &count);
+    for (size_t i = 0; i < count; i++)
+        visit(user, fetches[i].line, fetches[i].name);
+    free(fetches);
+    glslang_program_delete(program);
+    return true;
 }

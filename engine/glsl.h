@@ -34,4 +34,9 @@ void plr_glsl_parse_log(const char *log, plr_glsl_messages *messages);
  * glslang can optimise. False if the text does not compile. */
 bool plr_glsl_count(const char *text, plr_stage stage, uint32_t *instructions, uint32_t *fetches);
 
+/* Visits the same fetches one by one: the line of the text where each stands (0: not known) and the
+ * name of the uniform that it reads (NULL: not known), which is gone after the visit. */
+bool plr_glsl_fetches(const char *text, plr_stage stage,
+                      void (*visit)(void *user, uint32_t line, const char *sampler), void *user);
+
 #endif

@@ -128,6 +128,19 @@ typedef struct plr_program_info {
 PLR_API size_t plr_view_program_count(const plr_view *view);
 PLR_API const plr_program_info *plr_view_program(const plr_view *view, size_t index);
 
+/* A line of GLSL that fetches from a texture. */
+typedef struct plr_fetch_info {
+    plr_place place;
+    size_t effect;       /* whose uniform is read, wherever the line stands; or PLR_NO_EFFECT */
+    const char *sampler; /* the author's name of the uniform; NULL: not known */
+    uint32_t count;      /* how often: once for each call of the function it stands in */
+} plr_fetch_info;
+
+/* The fetches of a program's fragment stage, counted as those of plr_program_info. Writes up to
+ * `capacity` rows, in order of text, and returns how many there are. */
+PLR_API size_t plr_program_fetches(const plr_program *program, plr_fetch_info *fetches,
+                                   size_t capacity);
+
 /* A thing that a program draws. */
 typedef struct plr_drawable {
     const char *kind;                /* "surface", "volume", "background" */

@@ -247,6 +247,17 @@ typedef struct plr_call_info {
  * are; 0 without memory. */
 PLR_API size_t plr_program_calls(const plr_program *program, plr_call_info *calls, size_t capacity);
 
+/* A place in the program where a member of a struct is named. */
+typedef struct plr_member_use {
+    plr_mapped at; /* of the name behind the dot */
+    bool written;  /* the member, or a part of it, is assigned to; else its value is used */
+} plr_member_use;
+
+/* Where a stage names a member: `.name`, in order of text, whatever the struct. Writes up to
+ * `capacity` of the places and returns how many there are. */
+PLR_API size_t plr_program_member_uses(const plr_program *program, plr_stage stage,
+                                       const char *name, plr_member_use *uses, size_t capacity);
+
 #ifdef __cplusplus
 }
 #endif

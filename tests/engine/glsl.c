@@ -227,6 +227,39 @@ static void test_counting(void) {
     CHECK(!plr_glsl_count("#version 300 es\nvoid main() {}\n", PLR_FRAGMENT, &few, &fetches));
 }
 
+typedef struct fetched {
+    char text[512];
+} fetched;
+
+static void note_fetch(void *user, uint32_t line, const char *sampler) {
+    fetched *f = user;
+    size_t length = strlen(f->text);
+    snprintf(f->text + length, sizeof f->text - length, "%u %s\n", (unsigned)line,
+             sampler ? sampler : "?");
+}
+
+/* Functions called twice fetch twice, with the line where the fetch stands. */
+static void test_fetches(void) {
+    fetched f = {""};
+    CHECK(plr_glsl_fetches(SAMPLING "vec4 at(vec3 q) {\n"
+                                    "    return texture(voxels, q);\n"
+                                    "}\n"
+                                    "vec4 unused() { return texture(ramp, p.xy); }\n"
+                                    "vec4 of(sampler2D s) { return texelFetch(s, ivec2(0), 0); }\n"
+                                    "void main() {\n"
+                                    "    c = at(p) + at(-p);\n"
+                                    "    c += of(ramp);\n"
+                                    "}\n",
+                           PLR_FRAGMENT, note_fetch, &f));
+    CHECK_STR(f.text, "7 voxels\n7 voxels\n10 ramp\n");
+    f.text[0] = 0;
+    CHECK(plr_glsl_fetches(SAMPLING "void main() { c = vec4(p, 1.0); }\n", PLR_FRAGMENT, note_fetch,
+                           &f));
+    CHECK(
+        !plr_glsl_fetches(SAMPLING "void main() { c = nothing; }\n", PLR_FRAGMENT, note_fetch, &f));
+    CHECK_STR(f.text, "");
+}
+
 static void *work(void *user) {
     bool *works = user;
     for (int i = 0; i < 30 && *works; i++) {
@@ -285,6 +318,7 @@ int main(void) {
     test_errors();
     test_linking();
     test_counting();
+    test_fetches();
     test_silence();
     test_place_of_limit();
     test_hostile();

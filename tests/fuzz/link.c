@@ -112,6 +112,17 @@ static void look_at_calls(const plr_program *program) {
     }
 }
 
+/* Members stand on lines that there are. */
+static void look_at_members(const plr_program *program) {
+    plr_member_use uses[64];
+    for (int stage = 0; stage < PLR_STAGE_COUNT; stage++) {
+        size_t count = plr_program_member_uses(program, (plr_stage)stage, "x", uses, 64);
+        for (size_t i = 0; i < count && i < 64; i++)
+            if (!uses[i].at.source && uses[i].at.place.file)
+                abort();
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -131,6 +142,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (program) {
         look_around(program);
         look_at_calls(program);
+        look_at_members(program);
     }
     plr_program_destroy(&program);
     plr_diags_destroy(&diags);
