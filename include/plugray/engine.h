@@ -172,6 +172,31 @@ typedef struct plr_view_stats {
 } plr_view_stats;
 PLR_API void plr_view_get_stats(const plr_view *view, plr_view_stats *stats);
 
+/* ---- What volumes hold ---- */
+
+#define PLR_PERCENTILES 0.1, 1, 5, 25, 50, 75, 95, 99, 99.9
+#define PLR_PERCENTILE_COUNT 9
+#define PLR_HISTOGRAM_BINS 32
+
+/* Of one component of a volume, over all voxels, in physical units; exact. */
+typedef struct plr_volume_statistics {
+    uint64_t finite, nan, infinite; /* values of each kind; the rest is about the finite ones */
+    double minimum, maximum;
+    /* By nearest rank: the least value that at least so many percent do not exceed. */
+    double percentiles[PLR_PERCENTILE_COUNT];
+    /* A histogram: bin i holds what is at least first + i * width and less than the next one's; the
+     * last one holds the maximum, too. Bins of integers hold whole numbers of levels. */
+    uint32_t bins;
+    double first, width;
+    uint64_t counts[PLR_HISTOGRAM_BINS];
+} plr_volume_statistics;
+
+/* Reads the voxels of a texture node (ImageTexture3D, PixelTexture3D, ComposedTexture3D, ...) and
+ * counts. False, reported, if they cannot be read. */
+PLR_API bool plr_volume_read_statistics(plr_scene *scene, const plr_node *texture,
+                                        uint32_t component, plr_volume_statistics *statistics,
+                                        plr_diags *diags);
+
 /* The GLSL that plugray brings: path below effects/, text. NULL beyond the last. */
 PLR_API const char *plr_effects_file(size_t index, const char **text, size_t *length);
 
