@@ -34,6 +34,8 @@ struct plr_slot {
         SLOT_COUNT,
         SLOT_TEXTURE,
         SLOT_VOXELS,
+        SLOT_LABELS,
+        SLOT_SURFACES,
         SLOT_DEFAULT_RAMP,
         SLOT_OPAQUE_DEPTH
     } source;
@@ -52,6 +54,14 @@ static const plr_field *counted_field(const plr_node *node, const char *name) {
     return plr_node_field(node, field);
 }
 
+/* What a volume has that is no field of a node. */
+static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
+    bool labels = strcmp(symbol->name, "labels") == 0;
+    bool surfaces = strcmp(symbol->name, "surfaces") == 0;
+    slot->source = labels ? SLOT_LABELS : SLOT_SURFACES;
+    return labels || surfaces;
+}
+
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
 static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
                         bool builtin, size_t element, plr_slot *slot) {
@@ -59,11 +69,13 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
         slot->source = SLOT_OPAQUE_DEPTH;
         return strcmp(symbol->name, "opaqueDepth") == 0;
     }
-    if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
+    if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->grid &&
         strcmp(symbol->name, "voxels") == 0) {
         slot->source = SLOT_VOXELS;
         return true;
     }
+    if (builtin && slot->volume != PLR_NO_EFFECT && find_volume_source(symbol, slot))
+        return true;
     if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->shadow &&
         strcmp(symbol->name, "shadowMap") == 0) {
         slot->source = SLOT_TEXTURE;
@@ -284,9 +296,16 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
         gl->Uniform1i(slot->location, (GLint)slot->field->count);
         return;
     case SLOT_VOXELS:
-        if (volume)
-            plr_texture_bind(textures, volume->voxels, slot->unit, PLR_USE_CLAMPED);
+        plr_texture_bind(textures, slot->binding->grid->voxels, slot->unit, PLR_USE_CLAMPED);
         break;
+    case SLOT_LABELS:
+        if (volume && volume->labels)
+            plr_texture_bind(textures, volume->labels, slot->unit, PLR_USE_CLAMPED);
+        break;
+    case SLOT_SURFACES:
+        if (volume)
+            set_floats(gl, slot, (GLsizei)volume->surface_count, volume->surfaces[0], false);
+        return;
     case SLOT_TEXTURE:
         if (slot->texture)
             plr_texture_bind(textures, slot->texture, slot->unit, slot->use);

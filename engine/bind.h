@@ -27,17 +27,42 @@ typedef struct plr_shadow_values {
     double depth_bias;
 } plr_shadow_values;
 
+/* Voxels on a grid in the box of a volume: its own, or those that a style blends with it. */
+typedef struct plr_grid {
+    const plr_node *node; /* that has the field `voxels` */
+    plr_texture *voxels;
+    uint32_t size[3];
+    double range[2];      /* the physical values that are 0 and 1 */
+    double dimensions[3]; /* of the box, own coordinates */
+    double gradient_unit; /* 0: not asked for yet */
+} plr_grid;
+
+/* What a volume does along a ray. */
+typedef enum plr_volume_kind {
+    PLR_VOLUME_FILLED,   /* samples in steps */
+    PLR_VOLUME_SURFACES, /* surfaces of equal value */
+    PLR_VOLUME_PROJECTED /* one intensity */
+} plr_volume_kind;
+
+/* The same in GLSL: MOST_SURFACES. */
+#define PLR_MOST_SURFACES 256
+
 /* A volume made ready. */
 typedef struct plr_volume_state {
     plr_node *node;
-    plr_matrix to_world;
+    plr_matrix to_world;   /* of its box */
+    plr_matrix file_place; /* box to the node's coordinates: as its file says, or the identity */
     double dimensions[3];
-    double voxel;         /* geometric mean of a voxel's sides, own coordinates */
-    double reference;     /* reference length of opacity */
-    double gradient_unit; /* 0: not asked for yet */
-    double step;          /* sample distance, own coordinates */
+    double voxel;     /* geometric mean of a voxel's sides, own coordinates */
+    double reference; /* reference length of opacity */
+    double step;      /* sample distance, own coordinates */
     size_t index;
-    plr_texture *voxels;
+    plr_grid *grid;
+    plr_texture *labels; /* segment numbers; or NULL */
+    plr_volume_kind kind;
+    float (*surfaces)[2]; /* value, ascending, and number; of PLR_VOLUME_SURFACES */
+    size_t surface_count;
+    uint64_t hash; /* of the voxels */
 } plr_volume_state;
 
 /* Everything that the value of a uniform may depend on. */

@@ -39,6 +39,7 @@ typedef enum plr_known_owner {
     OWNER_HOST,   /* base and library */
     OWNER_NODE,   /* a built-in effect with a node or the headlight */
     OWNER_VOLUME, /* a built-in effect of a volume */
+    OWNER_GRID,   /* a built-in effect that reads voxels */
     OWNER_SHADOW, /* the effect of a shadow map */
 } plr_known_owner;
 

@@ -116,7 +116,13 @@ static void v_reference(const plr_known_context *c, float *out) {
     out[0] = (float)c->volume->reference;
 }
 static void v_gradient_unit(const plr_known_context *c, float *out) {
-    out[0] = (float)c->volume->gradient_unit;
+    out[0] = (float)c->binding->grid->gradient_unit;
+}
+static void v_surface_count(const plr_known_context *c, float *out) {
+    out[0] = (float)c->volume->surface_count;
+}
+static void v_choice_number(const plr_known_context *c, float *out) {
+    out[0] = (float)c->binding->number;
 }
 
 static void v_volume_index(const plr_known_context *c, float *out) {
@@ -192,7 +198,9 @@ static const plr_known known[] = {
     {"dimensions", OWNER_VOLUME, v_dimensions},
     {"sampleDistance", OWNER_VOLUME, v_step},
     {"referenceLength", OWNER_VOLUME, v_reference},
-    {"gradientUnit", OWNER_VOLUME, v_gradient_unit},
+    {"gradientUnit", OWNER_GRID, v_gradient_unit},
+    {"surfaceCount", OWNER_VOLUME, v_surface_count},
+    {"choiceNumber", OWNER_VOLUME, v_choice_number},
     {"volumeIndex", OWNER_VOLUME, v_volume_index},
     {"eyeToShadow", OWNER_SHADOW, v_eye_to_shadow},
     {"shadowAxis", OWNER_SHADOW, v_shadow_axis},
@@ -207,6 +215,7 @@ const plr_known *plr_known_find(const char *name, const plr_binding *binding) {
         bool fits = known[i].owner == OWNER_HOST     ? !binding
                     : known[i].owner == OWNER_NODE   ? binding != NULL
                     : known[i].owner == OWNER_SHADOW ? binding && binding->shadow
+                    : known[i].owner == OWNER_GRID   ? binding && binding->grid
                                                      : binding && binding->volume != PLR_NO_EFFECT;
         if (fits && strcmp(known[i].name, name) == 0)
             return &known[i];

@@ -115,7 +115,7 @@ static void move_parts(plr_view *view) {
             move_pass(&view->models[i]->caster->pass);
     }
     for (size_t i = 0; i < view->volumes.count; i++)
-        view->volumes.volumes[i].to_world = view->volumes.leaves[i]->to_world;
+        plr_volume_move(&view->volumes.volumes[i], view->volumes.leaves[i]);
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         move_pass(&view->volumes.casts[i].pass);
 }

@@ -26,6 +26,13 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
         add_light(view, recipe, &view->flat.global_lights.items[i], attached, volume);
 }
 
+const plr_placed *plr_pass_fog(const plr_view *view, const plr_scope *scope) {
+    for (; scope; scope = scope->outer)
+        if (scope->fog.node)
+            return &scope->fog;
+    return &view->flat.fog;
+}
+
 void plr_pass_find(plr_view *view, plr_pass *pass) {
     if (pass->built)
         plr_bind_find(&view->kitchen, &view->engine->gl, &pass->recipe, pass->program, pass->built,

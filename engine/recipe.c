@@ -21,10 +21,15 @@ static char *macro_tail(plr_arena *arena, const char *text) {
     return tail;
 }
 
-/* The voxels of a volume node, which the volume pass loads itself: to look at them here would load
- * them twice. */
-static bool is_volume_data(const plr_node *node, const plr_field *field) {
-    return strcmp(field->name, "voxels") == 0 && plr_node_field(node, "opacityUnitDistance");
+/* The voxels of volumes and styles, which the volume pass loads itself: to look at them here would
+ * load them twice. */
+static bool is_volume_data(const plr_field *field) {
+    static const char *const names[] = {"voxels", "voxelLevels", "segmentIdentifiers",
+                                        "segmentedVoxels"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(field->name, names[i]) == 0)
+            return true;
+    return false;
 }
 
 /* The macros that the conditionals of a built-in effect see; effects/README.md lists them. */
@@ -55,7 +60,7 @@ static void field_defines(plr_kitchen *k, define_list *list, const plr_node *nod
                 push_define(arena, list, plr_arena_format(arena, "%s_DIMENSIONS", path), "0");
                 push_define(arena, list, plr_arena_format(arena, "%s_COMPONENTS", path), "0");
             }
-            if (!child || strcmp(field->name, "metadata") == 0 || is_volume_data(node, field))
+            if (!child || strcmp(field->name, "metadata") == 0 || is_volume_data(field))
                 break;
             push_define(arena, list, plr_arena_format(arena, "%s_%s", path, plr_node_type(child)),
                         "1");
@@ -87,11 +92,29 @@ static size_t push_effect(plr_kitchen *k, plr_recipe *recipe, plr_effect effect,
     return recipe->effects.count;
 }
 
+/* The units of paths separated by blanks; none if there are none of the first. */
+static plr_sources gather_units(plr_kitchen *k, const char *paths) {
+    const char *end = strchr(paths, ' ');
+    if (!end)
+        return *plr_catalog_units(k->catalog, paths);
+    plr_sources units = {0};
+    for (const char *at = paths; at; at = end ? end + 1 : NULL) {
+        end = strchr(at, ' ');
+        const char *path = plr_arena_copy(k->arena, at, end ? (size_t)(end - at) : strlen(at));
+        const plr_sources *more = plr_catalog_units(k->catalog, path);
+        for (size_t i = 0; i < more->count; i++)
+            *PLR_PUSH(k->arena, &units) = more->items[i];
+        if (!units.count)
+            break;
+    }
+    return units;
+}
+
 size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, const char *name,
                           plr_binding binding, size_t attached, const plr_define *extra,
                           size_t extra_count) {
-    const plr_sources *units = plr_catalog_units(k->catalog, path);
-    if (!units->count)
+    plr_sources units = gather_units(k, path);
+    if (!units.count)
         return 0;
     define_list defines = {0};
     if (binding.node)
@@ -99,8 +122,8 @@ size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, 
     for (size_t i = 0; i < extra_count; i++) /* the last one of a name counts */
         *PLR_PUSH(k->arena, &defines) = extra[i];
     plr_effect effect = {.name = name,
-                         .sources = units->items,
-                         .source_count = units->count,
+                         .sources = units.items,
+                         .source_count = units.count,
                          .defines = defines.items,
                          .define_count = defines.count,
                          .attached = attached,

@@ -60,29 +60,24 @@ static bool is_immune_to_fog(const plr_shape *shape) {
            plr_node_bool(material, "fogImmune");
 }
 
-/* The nearest LocalFog, else the Fog of the scene. */
 static void add_fog(plr_shape *shape, bool complete) {
-    const plr_placed *fog = &shape->view->flat.fog;
-    for (const plr_scope *scope = shape->leaf->scope; scope; scope = scope->outer)
-        if (scope->fog.node) {
-            fog = &scope->fog;
-            break;
-        }
+    const plr_placed *fog = plr_pass_fog(shape->view, shape->leaf->scope);
     if (!fog->node || is_immune_to_fog(shape))
         return;
     const plr_define extra[] = {
         plr_shape_define(shape, "HAS_FOG_COORD", shape->model->mesh.fog_coords != NULL),
-        plr_shape_define(shape, "COMPLETE", complete)};
+        plr_shape_define(shape, "COMPLETE", complete), plr_shape_define(shape, "VOLUME", 0)};
     add_placed(shape, "fog/Fog", fog, extra, sizeof extra / sizeof *extra);
 }
 
 static void add_clip_planes(plr_shape *shape) {
+    const plr_define on_surface = plr_shape_define(shape, "VOLUME", 0);
     size_t count = 0;
     for (const plr_scope *scope = shape->leaf->scope; scope; scope = scope->outer)
         for (size_t i = 0; i < scope->clip_planes.count; i++, count++) {
             const plr_placed *plane = &scope->clip_planes.items[i];
             if (count < MOST_CLIP_PLANES)
-                add_placed(shape, "fog/ClipPlane", plane, NULL, 0);
+                add_placed(shape, "fog/ClipPlane", plane, &on_surface, 1);
             else if (count == MOST_CLIP_PLANES)
                 plr_diags_add(shape->diags, PLR_CODE_LIMIT, plr_node_place(plane->node),
                               "more than %d clip planes cut one shape; the outer ones are left out",
@@ -98,22 +93,4 @@ void plr_shape_surroundings(plr_shape *shape) {
 
 void plr_shape_complete_fog(plr_shape *shape) {
     add_fog(shape, true);
-}
-
-/* ---- Volumes ---- */
-
-static void tell_not_in_volumes(const plr_node *node, plr_diags *diags) {
-    if (node)
-        plr_diags_add(diags, PLR_CODE_NOT_DRAWN, plr_node_place(node),
-                      "%s changes surfaces alone, not the volumes in its reach yet",
-                      plr_node_type(node));
-}
-
-void plr_volume_surroundings(const plr_view *view, const plr_scope *scope, plr_diags *diags) {
-    tell_not_in_volumes(view->flat.fog.node, diags);
-    for (; scope; scope = scope->outer) {
-        tell_not_in_volumes(scope->fog.node, diags);
-        for (size_t i = 0; i < scope->clip_planes.count; i++)
-            tell_not_in_volumes(scope->clip_planes.items[i].node, diags);
-    }
 }

@@ -32,10 +32,14 @@ typedef struct plr_cast {
 
 /* Voxels that outlive a change of the scene. */
 typedef struct plr_kept_volume {
-    const plr_node *node; /* VolumeData */
+    const plr_node *node; /* that has them in a field: VolumeData, BlendedVolumeStyle */
     uint64_t revision;    /* of its nodes, when they were read */
-    plr_texture *voxels;
-    uint32_t size[3];
+    plr_grid grid;
+    plr_texture *labels; /* or NULL */
+    bool placed;         /* the file says where it is and how large: */
+    plr_matrix place;
+    double dimensions[3];
+    uint64_t hash; /* of the voxels */
 } plr_kept_volume;
 
 /* All volumes: most in one cast; one whose author decides how it accumulates is a layer of its own.
@@ -47,6 +51,10 @@ typedef struct plr_volume_pass {
     plr_cast *casts; /* as many as there are volumes at most */
     size_t cast_count;
     plr_texture *default_ramp;
+    struct {
+        plr_grid **items;
+        size_t count, capacity;
+    } grids; /* of the volumes and of their styles */
 } plr_volume_pass;
 
 /* A shape with its program: shared by all places where it stands under the same lights and
@@ -148,7 +156,7 @@ struct plr_view {
     plr_world *entered; /* the world that the view is at; NULL: the scene */
     plr_targets targets;
     struct {
-        plr_kept_volume *items;
+        plr_kept_volume **items;
         size_t count, capacity;
     } kept_volumes;
     plr_projection projections[8];
@@ -171,14 +179,16 @@ void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
 /* The gradient that counts as 1 where no author says so; never 0. */
-double plr_volume_steepness(plr_view *view, const plr_volume_state *state);
+double plr_volume_steepness(plr_view *view, const plr_grid *grid);
+/* Takes a volume to where its leaf is. */
+void plr_volume_move(plr_volume_state *state, const plr_leaf *leaf);
 /* Makes the program of background->node; nothing where a clear colour will do. */
 void plr_background_prepare(plr_view *view, plr_background *background);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
-/* Tells of fog and clip planes that reach a volume, which are not drawn in volumes yet. */
-void plr_volume_surroundings(const plr_view *view, const plr_scope *scope, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
+/* The fog that a leaf is in: the nearest LocalFog, else the Fog of the scene; its node may be NULL. */
+const plr_placed *plr_pass_fog(const plr_view *view, const plr_scope *scope);
 /* The lights that reach a leaf, as built-in effects. */
 void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,
                      size_t volume);

@@ -23,14 +23,14 @@ static void find_gradient_units(plr_view *view) {
     bool needed = false;
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         needed = needed || plr_bind_needs(&view->volumes.casts[i].pass.slots, "gradientUnit");
-    for (size_t i = 0; i < view->volumes.count; i++) {
-        plr_volume_state *state = &view->volumes.volumes[i];
-        if (state->gradient_unit > 0 || !needed)
+    for (size_t i = 0; i < view->volumes.grids.count; i++) {
+        plr_grid *grid = view->volumes.grids.items[i];
+        if (grid->gradient_unit > 0 || !needed)
             continue;
-        plr_texture *voxels = state->voxels;
+        plr_texture *voxels = grid->voxels;
         if (!(voxels->steepness > 0))
-            voxels->steepness = plr_volume_steepness(view, state);
-        state->gradient_unit = 1 / voxels->steepness;
+            voxels->steepness = plr_volume_steepness(view, grid);
+        grid->gradient_unit = 1 / voxels->steepness;
     }
 }
 

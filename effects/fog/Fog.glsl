@@ -19,6 +19,8 @@ in float fog_coordinate;
 #elif COMPLETE
 in vec4 fog_place;
 #define FOG_PLACE fog_place
+#elif VOLUME
+#define FOG_PLACE sample_place
 #else
 #define FOG_PLACE surface_vertex_eye
 #endif

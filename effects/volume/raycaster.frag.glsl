@@ -24,6 +24,9 @@ struct VolumeSample {
 #if READS(segment)
     int segment;
 #endif
+#if READS(surface)
+    int surface;        /* of equal value, by its number; -1 where there is none */
+#endif
 #if READS(volume)
     int volume;         /* -1 in a mix of several */
 #endif
@@ -47,6 +50,9 @@ out vec4 plugray_FragColor;
 /* PLUG-DECLARATIONS */
 
 const float NOWHERE = 3.0e38;
+#if HAS_EVENTS
+const int MOST_EVENTS = 4096; /* in one step */
+#endif
 
 /* How many steps a part of the ray takes; a remainder that is only rounding is no step. */
 int step_count(float whole, float step_length) {
@@ -93,30 +99,48 @@ void main() {
     float depth = NOWHERE;
 #endif
     float t = NOWHERE;
-#if VOLUME_COUNT > 1
+#if MIXES
+    bool ended = false;
     /* PLUG: volume_first (t) */
     /* Between two neighbouring entries and exits the set of volumes does not change: steps never
      * straddle one, and what does not overlap along this ray is met in order along this ray. */
-    while (t < NOWHERE) { /* t grows from one entry or exit to the next */
+    while (t < NOWHERE && !ended) { /* t grows from one entry or exit to the next */
 #endif
         float t_next = NOWHERE;
         float step_length = NOWHERE;
         /* PLUG: volume_part (t, t_next, step_length) */
-#if VOLUME_COUNT > 1
+#if MIXES
         if (t_next >= NOWHERE)
             break;
         int steps = step_length < NOWHERE ? step_count(t_next - t, step_length) : 0;
+#if HAS_EVENTS
+        steps = max(steps, 1);
+#endif
 #else
         int steps = step_count(t_next - t, step_length);
 #endif
         for (int i = 0; i < steps; i++) {
             float from = t + float(i) * step_length;
+#if HAS_EVENTS
+            float to = i == steps - 1 ? t_next : t + float(i + 1) * step_length;
+            /* PLUG: volume_look (from, to, origin_eye, direction_eye) */
+            /* a surface splits the step: what is before it, the surface itself, what is behind */
+            for (int part = 0; part < MOST_EVENTS; part++) {
+                float event = NOWHERE;
+                /* PLUG: volume_event (event) */
+                float span = min(event, to) - from;
+#else
             /* the last step is shortened: lengths add up to the part */
             float span = i == steps - 1 ? t_next - from : step_length;
+#endif
             float t_middle = from + 0.5 * span;
             VolumeSample s;
             vec4 color;
-#if VOLUME_COUNT > 1
+#if HAS_STEPS
+#if MIXES
+#if HAS_EVENTS
+            if (span > 0.0) {
+#endif
             VolumeMix mixed = VolumeMix(vec3(0.0), 0.0, vec3(0.0), 0.0);
             /* PLUG: volume_mix (mixed, t_middle, span, origin_eye, direction_eye) */
             color = volume_mix_color(mixed);
@@ -137,15 +161,37 @@ void main() {
             if (depth >= NOWHERE && accumulated.a > 0.0)
                 depth = t_middle;
 #endif
+#if MIXES && HAS_EVENTS
+            }
+#endif
+#endif
+#if HAS_EVENTS
+                if (event > to)
+                    break;
+                bool met = false;
+                /* PLUG: volume_meet (met, color, s, event, origin_eye, direction_eye) */
+                if (!met)
+                    break;
+                /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+                if (depth >= NOWHERE && accumulated.a > 0.0)
+                    depth = event;
+#endif
+                from = max(from, event);
+#if EARLY_END
+                if (1.0 - accumulated.a < transparencyLeft)
+                    break;
+#endif
+            }
+#endif
 #if EARLY_END
             if (1.0 - accumulated.a < transparencyLeft)
                 break;
 #endif
         }
-#if VOLUME_COUNT > 1
+#if MIXES
 #if EARLY_END
-        if (1.0 - accumulated.a < transparencyLeft)
-            break;
+        ended = 1.0 - accumulated.a < transparencyLeft;
 #endif
         t = t_next;
     }

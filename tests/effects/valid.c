@@ -16,6 +16,7 @@ typedef struct part {
     size_t define_count;
     const char *geometry_text;
     size_t attached; /* to the part before of this number, from 1 */
+    bool is_private; /* its plugs are for what is attached to it */
 } part;
 
 typedef struct recipe {
@@ -71,6 +72,19 @@ static bool is_style(const char *path) {
     return strncmp(path, "volume/", 7) == 0 && strcmp(path + length - tail, "VolumeStyle") == 0;
 }
 
+/* Those of paths separated by blanks. */
+static size_t read_paths(linked *l, const char *paths, const plr_source **list) {
+    size_t count = 0;
+    for (const char *at = paths; *at;) {
+        char path[64];
+        size_t length = strcspn(at, " ");
+        snprintf(path, sizeof path, "%.*s", (int)length, at);
+        count += read_files(l, path, list + count);
+        at += length + (at[length] == ' ');
+    }
+    return count;
+}
+
 static size_t read_library(linked *l) {
     const char *name, *text;
     size_t count = 0;
@@ -98,7 +112,7 @@ static void link_recipe(linked *l, const recipe *r) {
         if (p->geometry_text)
             list[units++] = read_text(l, PLR_GEOMETRY, p->path, p->geometry_text);
         if (!units)
-            units = read_files(l, p->path, list);
+            units = read_paths(l, p->path, list);
         if (is_style(p->path))
             units += read_files(l, "volume/style", list + units);
         l->effects[count] =
@@ -109,6 +123,7 @@ static void link_recipe(linked *l, const recipe *r) {
                          .define_count = p->define_count,
                          .attached = p->attached,
                          .only_attached = p->attached != 0,
+                         .private_plugs = p->is_private,
                          .builtin = !p->text && !p->vertex_text && !p->geometry_text};
     }
     plr_link_desc desc = {.base = l->base,
@@ -244,12 +259,51 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
                                      {"HAS_NORMALS", "1"},
                                      {"TWO_SIDED", "1"},
                                      {"OPAQUE", "0"}};
-static const plr_define one_volume[] = {
-    {"VOLUME_COUNT", "1"}, {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"}, {"HAS_CUT", "0"}};
-static const plr_define two_volumes[] = {
-    {"VOLUME_COUNT", "2"}, {"HAS_OPAQUE", "1"}, {"EARLY_END", "0"}, {"HAS_CUT", "1"}};
-static const plr_define scalar[] = {{"voxels_COMPONENTS", "1"}, {"VOLUME_INDEX", "0"}};
-static const plr_define rgba[] = {{"voxels_COMPONENTS", "4"}, {"VOLUME_INDEX", "1"}};
+/* The units of a volume's effect, by what it does along the ray. */
+#define STEPPED "volume/Volume volume/grid volume/steps"
+#define SURFACES "volume/Volume volume/grid volume/surfaces"
+#define PROJECTED "volume/Volume volume/grid volume/projection"
+static const plr_define on_no_volume[] = {{"VOLUME", "0"}};
+static const plr_define fog_of_volume[] = {
+    {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "0"}, {"VOLUME", "1"}};
+static const plr_define one_volume[] = {{"MIXES", "0"},     {"HAS_EVENTS", "0"},
+                                        {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+                                        {"EARLY_END", "1"}, {"HAS_CUT", "0"}};
+static const plr_define two_volumes[] = {{"MIXES", "1"},     {"HAS_EVENTS", "0"},
+                                         {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
+                                         {"EARLY_END", "0"}, {"HAS_CUT", "1"}};
+static const plr_define surfaces[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"}, {"HAS_STEPS", "0"},
+                                      {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"}};
+static const plr_define scalar[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "0"}};
+static const plr_define labelled[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"PROJECTS", "0"}};
+static const plr_define rgba[] = {
+    {"voxels_COMPONENTS", "4"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}};
+static const plr_define given_gradients[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "1"}};
+static const plr_define least[] = {{"voxels_COMPONENTS", "2"},
+                                   {"HAS_LABELS", "0"},
+                                   {"PROJECTS", "1"},
+                                   {"renderStyle_type_MIN", "1"}};
+static const plr_define mean[] = {{"voxels_COMPONENTS", "4"},
+                                  {"HAS_LABELS", "0"},
+                                  {"PROJECTS", "1"},
+                                  {"renderStyle_type_AVERAGE", "1"}};
+static const plr_define greatest[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "1"}};
+static const plr_define of_segment[] = {{"OF_SURFACES", "0"}, {"OTHERS", "0"}, {"DRAWN", "1"}};
+static const plr_define of_surfaces[] = {{"OF_SURFACES", "1"}, {"OTHERS", "1"}, {"DRAWN", "1"}};
+static const plr_define hidden_segment[] = {{"OF_SURFACES", "0"}, {"OTHERS", "0"}, {"DRAWN", "0"}};
+static const plr_define blended_by_table[] = {
+    {"voxels_COMPONENTS", "1"},
+    {"HAS_OTHER", "1"},
+    {"DRAFT_NAMES", "0"},
+    {"weightFunction1_TABLE", "1"},
+    {"weightFunction2_ALPHA1", "1"},
+    {"HAS_weightTransferFunction1", "1"},
+    {"HAS_weightTransferFunction2", "0"},
+};
 static const plr_define leading[] = {{"voxels_COMPONENTS", "1"},
                                      {"LEADING", "1"},
                                      {"HAS_transferFunction", "1"},
@@ -275,8 +329,11 @@ static const plr_define shifted[] = {{"CHANNEL", "0"},   {"DIMENSIONS", "2"}, {"
                                      {"REFLECTED", "0"}, {"SHIFTED", "1"},    {"DATA", "1"}};
 static const plr_define hatched[] = {{"hatched", "1"}, {"filled", "0"}};
 static const plr_define uncharted[] = {{"mode_UNCHARTED", "1"}, {"LINEAR", "1"}};
-static const plr_define given_fog[] = {
-    {"HAS_FOG_COORD", "1"}, {"volumetric", "0"}, {"fogType_EXPONENTIAL", "1"}, {"COMPLETE", "0"}};
+static const plr_define given_fog[] = {{"HAS_FOG_COORD", "1"},
+                                       {"volumetric", "0"},
+                                       {"fogType_EXPONENTIAL", "1"},
+                                       {"COMPLETE", "0"},
+                                       {"VOLUME", "0"}};
 static const plr_define complete_fog[] = {
     {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "1"}};
 static const plr_define on_surface[] = {{"SURFACE", "1"}};
@@ -464,7 +521,7 @@ static const recipe recipes[] = {
      {{.path = "surface/UnlitMaterial"},
       {.path = "surface/back/UnlitMaterial"},
       {.path = "fog/Fog", DEFINES(given_fog)},
-      {.path = "fog/ClipPlane"}},
+      {.path = "fog/ClipPlane", DEFINES(on_no_volume)}},
      DEFINES(plain),
      .present = "castle_FogCoord discard exp",
      .absent = "volumetric"},
@@ -506,14 +563,14 @@ static const recipe recipes[] = {
      .present = "seen"},
     {"one volume",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
      .absent = "normal_ gradient MaterialInfo position_eye"},
     {"one lit volume",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
       {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style)},
       {.path = "volume/Composite"},
@@ -523,7 +580,7 @@ static const recipe recipes[] = {
      .present = "normal_eye MaterialInfo"},
     {"boundary enhancement",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/BoundaryEnhancementVolumeStyle", DEFINES(plain_boundary)},
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
@@ -531,7 +588,7 @@ static const recipe recipes[] = {
      .absent = "position_eye normal_eye gradientColor transferFunction"},
     {"boundary enhancement of 2005",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/BoundaryEnhancementVolumeStyle", DEFINES(old_boundary)},
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
@@ -539,7 +596,7 @@ static const recipe recipes[] = {
      .absent = "position_eye normal_eye"},
     {"styles of directions",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/SilhouetteEnhancementVolumeStyle"},
       {.path = "volume/EdgeEnhancementVolumeStyle"},
       {.path = "volume/EdgeEnhancementVolumeStyle", DEFINES(old_edge)},
@@ -550,7 +607,7 @@ static const recipe recipes[] = {
      .absent = "gradientUnit surfaceNormals MaterialInfo"},
     {"normals of a style's own",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/SilhouetteEnhancementVolumeStyle", DEFINES(own_normals)},
       {.path = "volume/CartoonVolumeStyle", DEFINES(own_normals)},
       {.path = "volume/Composite"}},
@@ -559,7 +616,7 @@ static const recipe recipes[] = {
      .absent = "normal_eye gradient"},
     {"warm and cool",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/ToneMappedVolumeStyle"},
       {.path = "volume/Composite"},
       {.path = "lights/DirectionalLight"},
@@ -569,18 +626,75 @@ static const recipe recipes[] = {
      .absent = "phong_reflection"},
     {"warm and cool without light",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/ToneMappedVolumeStyle"},
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
      .absent = "normal_eye MaterialInfo warmColor position_eye"},
     {"two volumes",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
-      {.path = "volume/Volume", DEFINES(rgba)},
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = STEPPED, DEFINES(rgba)},
       {.path = "volume/ShadedVolumeStyle", DEFINES(flat_style)},
       {.path = "volume/Composite"}},
      DEFINES(two_volumes)},
+    {"surfaces in their own styles",
+     "volume/raycaster",
+     {{.path = SURFACES, DEFINES(scalar)},
+      {.path = "volume/Choice", DEFINES(of_surfaces), .attached = 1, .is_private = true},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 2},
+      {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style), .attached = 2},
+      {.path = "volume/Composite"},
+      {.path = "lights/DirectionalLight"}},
+     DEFINES(surfaces),
+     .present = "find_crossing choiceNumber MaterialInfo",
+     .absent = "volume_mix_add segment"},
+    {"surfaces with gradients of their own, no style",
+     "volume/raycaster",
+     {{.path = SURFACES, DEFINES(given_gradients)}, {.path = "volume/Composite"}},
+     DEFINES(surfaces),
+     .present = "gradients",
+     .absent = "gradient_at normal_eye"},
+    {"three projections",
+     "volume/raycaster",
+     {{.path = PROJECTED, DEFINES(least)},
+      {.path = PROJECTED, DEFINES(mean)},
+      {.path = PROJECTED, DEFINES(greatest)},
+      {.path = "volume/Composite"}},
+     DEFINES(surfaces),
+     .present = "intensityThreshold",
+     .absent = "gradient volume_mix_add"},
+    {"segments",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(labelled)},
+      {.path = "volume/Choice", DEFINES(of_segment), .attached = 1, .is_private = true},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 2},
+      {.path = "volume/Choice", DEFINES(hidden_segment), .attached = 1, .is_private = true},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "usampler3D texelFetch choiceNumber",
+     .absent = "gradient"},
+    {"another volume blended",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = "volume/BlendedVolumeStyle volume/grid",
+       DEFINES(blended_by_table),
+       .attached = 1,
+       .is_private = true},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 2},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "weightTransferFunction1",
+     .absent = "gradient weightConstant1 weightTransferFunction2"},
+    {"fog and a plane in a volume",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = "fog/Fog", DEFINES(fog_of_volume)},
+      {.path = "fog/ClipPlane", DEFINES(fog_of_volume)},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "visibilityRange sample_place t_exit",
+     .absent = "gradient discard"},
     {"shadows of a map and of a cube",
      "surface/surface",
      {{.path = "surface/Material"},
@@ -592,7 +706,7 @@ static const recipe recipes[] = {
      .present = "sampler2DShadow samplerCubeShadow shadowIntensity"},
     {"shadow in a volume",
      "volume/raycaster",
-     {{.path = "volume/Volume", DEFINES(scalar)},
+     {{.path = STEPPED, DEFINES(scalar)},
       {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
       {.path = "volume/ShadedVolumeStyle", DEFINES(lit_style)},
       {.path = "volume/Composite"},
@@ -682,7 +796,7 @@ static void check_example(const char *text) {
                              .present = name + strlen("PLUG_")};
     const recipe volumes = {name,
                             "volume/raycaster",
-                            {{.path = "volume/Volume", DEFINES(scalar)},
+                            {{.path = STEPPED, DEFINES(scalar)},
                              {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading)},
                              {.path = "volume/Composite"},
                              {.path = name, .text = text}},

@@ -97,13 +97,4 @@ def unknown_style():
     suite.equal("warning", [m[3::2] for m in result.messages()][:1], [("warning", "unknown-node")])
 
 
-@suite.case
-def not_yet():
-    "what is not drawn yet is said, at its place"
-    text = front_scene(volume(constant(9)).replace("VolumeData {", "VolumeData { cropMin .5 0 0"), "Fog { }\n")
-    found = suite.render(text, "--probe", "8,8").messages()
-    suite.equal("codes", [(m[3], m[5]) for m in found], [("warning", "not-drawn")] * 2)
-    suite.check("the field's place", any("cropMin" in m[4] and m[2] > 10 for m in found), found)
-
-
 suite.run()

@@ -1,0 +1,59 @@
+/* Voxels on a grid that fills the box of a volume: value, gradient, colour. A unit of every effect
+ * that has voxels. */
+
+uniform mat4 eyeToLocal; /* eye space -> the volume's own coordinates, the box centred at the origin */
+uniform vec3 dimensions;
+uniform sampler3D voxels;
+
+/* The scalar of a voxel, for gradients and surfaces: L, or the mean of RGB. */
+float voxel_scalar(const in vec4 value) {
+#if voxels_COMPONENTS >= 3
+    return (value.r + value.g + value.b) / 3.0;
+#else
+    return value.r;
+#endif
+}
+
+float scalar_at(const in vec3 position) {
+    return voxel_scalar(texture(voxels, position));
+}
+
+/* The trilinear interpolation of central differences at voxel centres: differences over exactly two
+ * voxels, clamped to the outermost centres, commute with the interpolation. Value per unit length in
+ * own coordinates. */
+vec3 gradient_at(const in vec3 position) {
+    vec3 size = vec3(textureSize(voxels, 0));
+    vec3 voxel = 1.0 / size;
+    vec3 p = clamp(position, 0.5 * voxel, 1.0 - 0.5 * voxel);
+    vec3 x = vec3(voxel.x, 0.0, 0.0), y = vec3(0.0, voxel.y, 0.0), z = vec3(0.0, 0.0, voxel.z);
+    vec3 difference = vec3(scalar_at(p + x) - scalar_at(p - x), scalar_at(p + y) - scalar_at(p - y),
+                           scalar_at(p + z) - scalar_at(p - z));
+    return difference * size / (2.0 * dimensions);
+}
+
+/* The voxel itself as a colour, before any style. */
+vec4 voxel_color(const in vec4 value) {
+#if voxels_COMPONENTS == 1
+    return value.rrrr;
+#elif voxels_COMPONENTS == 2
+    return value.rrrg;
+#elif voxels_COMPONENTS == 3
+    return vec4(value.rgb, (value.r + value.g + value.b) / 3.0);
+#else
+    return value;
+#endif
+}
+
+/* What the grid has at a place of the box, in texture coordinates. */
+void grid_sample(inout VolumeSample s, const in vec3 position) {
+    s.value = texture(voxels, position);
+#if READS(normal_eye) || READS(gradient)
+    vec3 gradient = gradient_at(position);
+#endif
+#if READS(gradient)
+    s.gradient = length(gradient);
+#endif
+#if READS(normal_eye)
+    s.normal_eye = normal_of_gradient(gradient, mat3(eyeToLocal));
+#endif
+}

@@ -1,0 +1,258 @@
+/* The data of volume nodes in a scene: read once, kept while their nodes stay as they are. */
+#include "engine/volume_pass.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/update.h"
+#include "engine/volume.h"
+#include "engine/volume_geometry.h"
+
+enum {
+    DATA_DEPTH = 2 /* of nodes that voxels are made of */
+};
+
+/* Fields whose nodes hold data; of voxels the first that is given counts. */
+static const char *const data_fields[] = {"voxels", "segmentedVoxels", "segmentIdentifiers"};
+
+static uint64_t data_revision(const plr_node *owner) {
+    uint64_t revision = plr_node_revision(owner);
+    for (size_t i = 0; i < sizeof data_fields / sizeof *data_fields; i++) {
+        const plr_node *node = plr_node_child(owner, data_fields[i]);
+        revision += node ? plr_deep_revision(node, DATA_DEPTH) : 0;
+    }
+    return revision;
+}
+
+/* What was read before the scene changed, where that is still so. */
+static plr_kept_volume *find_kept(plr_view *view, const plr_node *owner, uint64_t revision) {
+    for (size_t i = 0; i < view->kept_volumes.count; i++) {
+        plr_kept_volume *kept = view->kept_volumes.items[i];
+        if (kept->node != owner)
+            continue;
+        if (kept->revision == revision)
+            return kept;
+        kept->grid.voxels->kept = false;
+        if (kept->labels)
+            kept->labels->kept = false;
+        view->kept_volumes.items[i] = view->kept_volumes.items[--view->kept_volumes.count];
+        return NULL;
+    }
+    return NULL;
+}
+
+/* ---- Reading ---- */
+
+/* What is read of one node. */
+typedef struct reading {
+    plr_view *view;
+    const plr_node *owner;
+    plr_kept_volume *kept;
+    plr_image voxels, labels;
+    plr_diags *diags;
+} reading;
+
+/* Takes the last component away: in the proposal of 2005 it is the segment. */
+static void drop_last_component(plr_image *image) {
+    size_t size = plr_image_sample_size(image->type), count = image->components;
+    size_t voxels = (size_t)image->width * image->height * image->depth;
+    char *to = image->samples;
+    for (size_t i = 0; i < voxels; i++, to += size * (count - 1))
+        memmove(to, (char *)image->samples + i * size * count, size * (count - 1));
+    image->components--;
+}
+
+static void node_range(const plr_node *owner, double range[2]) {
+    float given[2] = {0, 0};
+    plr_node_numbers(owner, "valueRange", given, 2);
+    range[0] = given[0];
+    range[1] = given[1];
+}
+
+static bool read_volume(reading *r, const plr_volume *volume) {
+    double range[2];
+    node_range(r->owner, range);
+    bool given = range[0] != range[1];
+    r->kept->grid.range[0] = given ? range[0] : volume->minimum;
+    r->kept->grid.range[1] = given ? range[1] : volume->maximum;
+    if (plr_node_field(r->owner, "fileGeometry") && plr_node_bool(r->owner, "fileGeometry"))
+        r->kept->placed = plr_volume_file_geometry(volume, plr_scene_length_unit(r->view->scene),
+                                                   &r->kept->place, r->kept->dimensions);
+    return plr_volume_to_image(volume, range, &r->voxels);
+}
+
+/* Voxels whose last component is the segment. One component alone draws nothing. */
+static bool read_segmented(reading *r, const plr_node *node) {
+    plr_volume volume = {0};
+    bool fine = plr_volume_from_node(r->view->scene, node, &volume, r->diags);
+    if (fine && volume.components < 2) {
+        plr_diags_add_as(r->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, plr_node_place(node),
+                         "segmentedVoxels of one component draw nothing: they lack the segment");
+        fine = false;
+    }
+    fine = fine && read_volume(r, &volume) &&
+           plr_volume_to_labels(&volume, volume.components - 1, plr_node_place(node), &r->labels,
+                                r->diags);
+    if (fine)
+        drop_last_component(&r->voxels);
+    plr_volume_free(&volume);
+    return fine;
+}
+
+static bool read_voxels(reading *r) {
+    const plr_node *node = plr_node_child(r->owner, "voxels");
+    const plr_node *segmented = plr_node_child(r->owner, "segmentedVoxels");
+    if (!node && segmented)
+        return read_segmented(r, segmented);
+    plr_volume volume = {0}; /* a volume without voxels is empty space */
+    bool fine = node && plr_volume_from_node(r->view->scene, node, &volume, r->diags) &&
+                read_volume(r, &volume);
+    plr_volume_free(&volume);
+    return fine;
+}
+
+/* ISO/IEC 19775-1 V4 41.4.11: segment identifiers of another size than the voxels are ignored. */
+static void read_labels(reading *r) {
+    const plr_node *node = plr_node_child(r->owner, "segmentIdentifiers");
+    plr_volume volume = {0};
+    if (!node || r->labels.samples ||
+        !plr_volume_from_node(r->view->scene, node, &volume, r->diags))
+        return;
+    const plr_image *voxels = &r->voxels;
+    if (volume.size[0] != voxels->width || volume.size[1] != voxels->height ||
+        volume.size[2] != voxels->depth)
+        plr_diags_add_as(r->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, plr_node_place(node),
+                         "segment identifiers of %u x %u x %u voxels for %u x %u x %u voxels are "
+                         "ignored",
+                         volume.size[0], volume.size[1], volume.size[2], voxels->width,
+                         voxels->height, voxels->depth);
+    else
+        plr_volume_to_labels(&volume, 0, plr_node_place(node), &r->labels, r->diags);
+    plr_volume_free(&volume);
+}
+
+/* One voxel in place of data that cannot be had, so that the effects on it are checked all the
+ * same. */
+static void make_placeholder(reading *r) {
+    r->voxels = (plr_image){.width = 1, .height = 1, .depth = 1, .components = 1};
+    r->voxels.samples = calloc(1, 1);
+    if (!r->voxels.samples)
+        longjmp(*r->view->arena.out_of_memory, 1);
+}
+
+static plr_texture *keep_texture(plr_view *view, plr_image *image, plr_texture_kind kind) {
+    if (!image->samples)
+        return NULL;
+    plr_texture *texture = plr_textures_make(&view->textures, image, kind, true);
+    texture->kept = true;
+    return texture;
+}
+
+/* The same voxels have the same number, wherever they stand: FNV-1a, of words. */
+static uint64_t hash_image(const plr_image *image, uint64_t hash) {
+    size_t bytes = (size_t)image->width * image->height * image->depth * image->components *
+                   (image->samples ? plr_image_sample_size(image->type) : 0);
+    const char *at = image->samples;
+    for (size_t i = 0; i < bytes; i += 8) {
+        uint64_t word = 0;
+        memcpy(&word, at + i, bytes - i < 8 ? bytes - i : 8);
+        hash = (hash ^ word) * UINT64_C(0x100000001b3);
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+static void measure_grid(plr_kept_volume *kept, const plr_image *image) {
+    float dimensions[3] = {1, 1, 1};
+    plr_node_numbers(kept->node, "dimensions", dimensions, 3);
+    kept->grid.node = kept->node;
+    kept->grid.size[0] = image->width;
+    kept->grid.size[1] = image->height;
+    kept->grid.size[2] = image->depth;
+    for (int i = 0; i < 3; i++) {
+        kept->grid.dimensions[i] = kept->placed ? kept->dimensions[i] : (double)dimensions[i];
+        kept->dimensions[i] = kept->grid.dimensions[i];
+    }
+    const plr_field *unit = plr_node_field(kept->node, "gradientUnit");
+    kept->grid.gradient_unit = unit ? plr_node_number(kept->node, "gradientUnit") : 0;
+}
+
+const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, plr_diags *diags) {
+    uint64_t revision = data_revision(owner);
+    plr_kept_volume *kept = find_kept(view, owner, revision);
+    if (kept)
+        return kept;
+    kept = PLR_NEW(&view->lasting, plr_kept_volume);
+    *kept = (plr_kept_volume){.node = owner, .revision = revision, .place = plr_matrix_identity()};
+    reading r = {.view = view, .owner = owner, .kept = kept, .diags = diags};
+    if (!read_voxels(&r)) {
+        plr_image_free(&r.voxels);
+        plr_image_free(&r.labels);
+        if (view->engine)
+            return NULL;
+        make_placeholder(&r);
+    }
+    read_labels(&r);
+    measure_grid(kept, &r.voxels);
+    kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
+    kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
+    kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);
+    *PLR_PUSH(&view->lasting, &view->kept_volumes) = kept;
+    return kept;
+}
+
+/* ---- States ---- */
+
+void plr_volume_move(plr_volume_state *state, const plr_leaf *leaf) {
+    state->to_world = plr_matrix_multiply(&leaf->to_world, &state->file_place);
+}
+
+/* Sizes, reference length and step; ISO/IEC 19775-1 V4 41.2 and the project's numbers for voxels.
+ */
+static void measure(const plr_view *view, plr_volume_state *state) {
+    double cell = 1;
+    for (int i = 0; i < 3; i++) {
+        state->dimensions[i] = state->grid->dimensions[i];
+        cell *= state->dimensions[i] / state->grid->size[i];
+    }
+    state->voxel = cbrt(cell);
+    double unit = plr_node_number(state->node, "opacityUnitDistance");
+    state->reference = unit > 0 ? unit : state->voxel;
+    state->step = (view->desc.step > 0 ? view->desc.step : 0.5) * state->voxel;
+}
+
+bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
+                     plr_diags *diags) {
+    *state = (plr_volume_state){.node = leaf->node};
+    plr_matrix inverse;
+    if (!plr_matrix_invert(&leaf->to_world, &inverse)) {
+        plr_diags_add(diags, PLR_CODE_BAD_VOLUME, plr_node_place(leaf->node),
+                      "the volume has no extent: its transformation is singular");
+        return false;
+    }
+    const plr_kept_volume *kept = plr_volume_keep(view, leaf->node, diags);
+    if (!kept)
+        return false;
+    state->grid = PLR_NEW(&view->arena, plr_grid);
+    *state->grid = kept->grid;
+    *PLR_PUSH(&view->arena, &view->volumes.grids) = state->grid;
+    state->labels = kept->labels;
+    state->file_place = kept->place;
+    state->hash = kept->hash;
+    plr_volume_move(state, leaf);
+    measure(view, state);
+    return state->voxel > 0;
+}
+
+double plr_volume_steepness(plr_view *view, const plr_grid *grid) {
+    plr_kept_volume unused = {.node = grid->node};
+    reading again = {.view = view, .owner = grid->node, .kept = &unused};
+    const plr_image *image = &grid->voxels->image;
+    if (!image->samples && read_voxels(&again))
+        image = &again.voxels;
+    double strong = image->samples ? plr_image_gradient_percentile(image, grid->dimensions) : 0;
+    plr_image_free(&again.voxels);
+    plr_image_free(&again.labels);
+    return strong > 0 ? strong : 1;
+}

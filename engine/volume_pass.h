@@ -1,0 +1,36 @@
+/* What the files of volumes in a scene share: loading, styles, programs, drawing. */
+#ifndef PLR_ENGINE_VOLUME_PASS_H
+#define PLR_ENGINE_VOLUME_PASS_H
+
+#include "engine/view.h"
+
+/* ---- Data (volume_load.c) ---- */
+
+/* The voxels, labels and place that a node's fields name, read once for each state of the nodes;
+ * NULL where there are none to be had (reported). `owner`: a volume node or BlendedVolumeStyle. */
+const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, plr_diags *diags);
+/* Makes the state of a leaf from its data; false if nothing of it can be drawn. */
+bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
+                     plr_diags *diags);
+
+/* ---- Surfaces of equal value (volume_surfaces.c) ---- */
+
+/* Finds the values of IsoSurfaceVolumeData, or of a style of 2005 that draws one. */
+void plr_volume_find_surfaces(plr_view *view, plr_volume_state *state, plr_diags *diags);
+/* The style of 2005 that makes a surface of a VolumeData; or NULL. */
+const plr_node *plr_surface_style(const plr_node *style);
+
+/* ---- Styles (volume_styles.c) ---- */
+
+/* Whether the styles of a volume node draw anything at all. */
+bool plr_volume_has_styles(const plr_volume_state *state);
+/* Adds the styles of a volume, attached to its effect, to a recipe; `lights` says where the light
+ * comes from. */
+void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
+                           const plr_scope *lights, plr_diags *diags);
+
+/* ---- Programs (volume_recipe.c) ---- */
+
+void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
+
+#endif

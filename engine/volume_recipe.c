@@ -1,0 +1,165 @@
+/* What a program of volumes is made of: the volumes with their styles, light, fog and planes, and
+ * the effects of authors. */
+#include "engine/volume_pass.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "engine/shadows.h"
+
+/* ---- One volume ---- */
+
+/* The units of a volume's own effect, by what it does along the ray. */
+static const char *const volume_units[] = {
+    [PLR_VOLUME_FILLED] = "volume/Volume volume/grid volume/steps",
+    [PLR_VOLUME_SURFACES] = "volume/Volume volume/grid volume/surfaces",
+    [PLR_VOLUME_PROJECTED] = "volume/Volume volume/grid volume/projection"};
+
+static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state) {
+    const plr_define defines[] = {
+        {"voxels_COMPONENTS",
+         plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
+        {"HAS_LABELS", state->labels ? "1" : "0"},
+        {"PROJECTS", state->kind == PLR_VOLUME_PROJECTED ? "1" : "0"}};
+    plr_define *extra = PLR_NEW_ARRAY(&view->arena, 3, plr_define);
+    memcpy(extra, defines, sizeof defines);
+    return plr_recipe_builtin(&view->kitchen, recipe, volume_units[state->kind],
+                              plr_node_type(state->node),
+                              (plr_binding){.node = state->node,
+                                            .to_world = state->to_world,
+                                            .place = &state->to_world,
+                                            .volume = state->index,
+                                            .grid = state->grid},
+                              0, extra, sizeof defines / sizeof *defines);
+}
+
+static void add_plane(plr_view *view, plr_recipe *recipe, plr_node *plane, const plr_matrix *place,
+                      size_t volume, size_t attached) {
+    plr_recipe_builtin(
+        &view->kitchen, recipe, "fog/ClipPlane", "ClipPlane",
+        (plr_binding){.node = plane, .to_world = *place, .place = place, .volume = volume},
+        attached, NULL, 0);
+}
+
+/* The volume's own planes, in the node's coordinates, and those of the scene around it. */
+static void add_planes(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, size_t volume,
+                       size_t attached) {
+    const plr_field *own = plr_node_field(leaf->node, "clipPlanes");
+    for (size_t i = 0; own && i < own->count; i++)
+        if (own->value.nodes[i] && plr_node_bool(own->value.nodes[i], "enabled"))
+            add_plane(view, recipe, own->value.nodes[i], &leaf->to_world, volume, attached);
+    if (plr_node_bool(leaf->node, "ignoreClipPlanes"))
+        return;
+    for (const plr_scope *scope = leaf->scope; scope; scope = scope->outer)
+        for (size_t i = 0; i < scope->clip_planes.count; i++) {
+            const plr_placed *plane = &scope->clip_planes.items[i];
+            add_plane(view, recipe, plane->node, &plane->to_world, volume, attached);
+        }
+}
+
+static void add_fog(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, size_t volume,
+                    size_t attached) {
+    static const plr_define defines[] = {
+        {"HAS_FOG_COORD", "0"}, {"COMPLETE", "0"}, {"VOLUME", "1"}};
+    const plr_placed *fog = plr_pass_fog(view, leaf->scope);
+    if (fog->node)
+        plr_recipe_builtin(&view->kitchen, recipe, "fog/Fog", plr_node_type(fog->node),
+                           (plr_binding){.node = fog->node,
+                                         .to_world = fog->to_world,
+                                         .place = &fog->to_world,
+                                         .volume = volume},
+                           attached, defines, sizeof defines / sizeof *defines);
+}
+
+static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, size_t *attached,
+                       plr_diags *diags) {
+    const plr_volume_state *state = &view->volumes.volumes[index];
+    const plr_leaf *leaf = view->volumes.leaves[index];
+    *attached = add_volume_effect(view, recipe, state);
+    add_planes(view, recipe, leaf, index, *attached);
+    plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, diags);
+    add_fog(view, recipe, leaf, index, *attached);
+    size_t from = recipe->effects.count;
+    plr_pass_lights(view, recipe, leaf->scope, *attached, index);
+    plr_recipe_shadows(view, recipe, from, index, NULL);
+}
+
+/* ---- Groups ---- */
+
+static bool scope_has(const plr_scope *scope, const plr_node *effect) {
+    for (; scope; scope = scope->outer)
+        for (size_t i = 0; i < scope->effects.count; i++)
+            if (scope->effects.items[i] == effect)
+                return true;
+    return false;
+}
+
+/* The groups' effects: what is around all volumes of the cast is one effect on the whole, what is
+ * around some is one on each of them. */
+static void add_group_effects(plr_view *view, plr_cast *cast, const size_t *attached) {
+    plr_recipe *recipe = &cast->pass.recipe;
+    const plr_leaf *const *leaves = view->volumes.leaves;
+    for (size_t i = 0; i < cast->count; i++)
+        for (const plr_scope *scope = leaves[cast->members[i]]->scope; scope; scope = scope->outer)
+            for (size_t e = 0; e < scope->effects.count; e++) {
+                plr_node *effect = scope->effects.items[e];
+                bool whole = true;
+                for (size_t other = 0; other < cast->count; other++)
+                    whole = whole && scope_has(leaves[cast->members[other]]->scope, effect);
+                if (!whole)
+                    plr_recipe_author(&view->kitchen, recipe, effect, attached[i],
+                                      cast->members[i]);
+                else if (i == 0)
+                    plr_recipe_author(&view->kitchen, recipe, effect,
+                                      cast->count == 1 ? attached[0] : 0,
+                                      cast->count == 1 ? cast->members[0] : PLR_NO_EFFECT);
+            }
+}
+
+/* ---- The whole ---- */
+
+static bool has_kind(const plr_view *view, const plr_cast *cast, bool events) {
+    for (size_t i = 0; i < cast->count; i++)
+        if ((view->volumes.volumes[cast->members[i]].kind != PLR_VOLUME_FILLED) == events)
+            return true;
+    return false;
+}
+
+static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
+    plr_recipe *recipe = &cast->pass.recipe;
+    bool events = has_kind(view, cast, true);
+    double cut[2];
+    plr_viewpoint_cut(view->viewpoint, cut);
+    const struct {
+        const char *name;
+        int value;
+    } defines[] = {
+        {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
+        {"HAS_EVENTS", events},
+        {"HAS_STEPS", has_kind(view, cast, false)},
+        {"HAS_OPAQUE", view->flat.shapes.count > 0 || view->desc.host_depths},
+        {"EARLY_END", early_end},
+        {"HAS_CUT", cut[0] > 0 || isfinite(cut[1])},
+        {"CASTLE_GLSL_VERSION_UPGRADE", 1},
+    };
+    for (size_t i = 0; i < sizeof defines / sizeof *defines; i++)
+        plr_recipe_define(&view->kitchen, recipe, defines[i].name, defines[i].value);
+}
+
+void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags) {
+    plr_volume_pass *pass = &view->volumes;
+    plr_recipe *recipe = &cast->pass.recipe;
+    plr_kitchen *k = &view->kitchen;
+    *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster")};
+    define_loop(view, cast, early_end);
+    size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
+    for (size_t i = 0; i < cast->count; i++)
+        add_volume(view, recipe, cast->members[i], &attached[i], diags);
+    plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
+                       (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
+    plr_recipe_attached_authors(&view->kitchen, recipe, "X3DLightNode");
+    for (size_t i = 0; i < cast->count; i++)
+        plr_recipe_author_list(k, recipe, pass->leaves[cast->members[i]]->node, attached[i],
+                               cast->members[i]);
+    add_group_effects(view, cast, attached);
+}
