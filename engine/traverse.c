@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "engine/bounds.h"
+
 /* DEF and USE let a short file describe more nodes than any machine can draw, and deeper ones. */
 enum {
     MOST_VISITS = 100000,
@@ -14,6 +16,7 @@ typedef struct walk {
     plr_diags *diags;
     plr_scope *scope;
     size_t visits, depth;
+    plr_bounds bounds;
 } walk;
 
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix);
@@ -321,18 +324,43 @@ static bool is_too_much(walk *w, const plr_node *node) {
     return w->visits++ >= MOST_VISITS;
 }
 
+/* The box is seen where what is in it is hidden, too. It does not move with the transformation that
+ * a group makes: it stands among what is inside. */
+static void show_box(walk *w, const plr_node *node, const plr_matrix *matrix, bool hidden,
+                     size_t first_shape, size_t first_volume) {
+    plr_matrix own, inside = *matrix;
+    if (plr_node_transform(node, own.m))
+        inside = plr_matrix_multiply(matrix, &own);
+    plr_leaves shapes = w->flat->shapes;
+    plr_bounds_show(&w->bounds, node, &inside, first_shape, first_volume);
+    if (!hidden)
+        return;
+    bool shown = w->flat->shapes.count > shapes.count;
+    if (shown)
+        w->flat->shapes.items[first_shape] = w->flat->shapes.items[shapes.count];
+    w->flat->shapes.count = first_shape + shown;
+    w->flat->volumes.count = first_volume;
+}
+
 static void visit(walk *w, plr_node *node, const plr_matrix *matrix) {
     if (!node || is_too_much(w, node) || is_too_deep(w, node))
         return;
     const plr_field *visible = plr_node_field(node, "visible");
-    if (visible && !plr_node_bool(node, "visible"))
+    bool hidden = visible && !plr_node_bool(node, "visible");
+    bool leaf = is_a(node, "X3DShapeNode") || is_a(node, "X3DVolumeDataNode");
+    bool boxed = plr_node_bool(node, "bboxDisplay");
+    if (hidden && !boxed)
         return;
     size_t i = 0, count = sizeof visitors / sizeof *visitors;
+    size_t first_shape = w->flat->shapes.count, first_volume = w->flat->volumes.count;
     while (i < count && !is_a(node, visitors[i].type))
         i++;
     w->depth++;
-    (i < count ? visitors[i].visit : visit_group)(w, node, matrix);
+    if (!hidden || leaf)
+        (i < count ? visitors[i].visit : visit_group)(w, node, matrix);
     w->depth--;
+    if (boxed)
+        show_box(w, node, matrix, hidden, first_shape, first_volume);
 }
 
 /* The headlight, or another light in its place: where the viewer is. */
@@ -353,12 +381,20 @@ static void limit_views(plr_flat *flat) {
         flat->viewpoints.items[i].limit = limit;
 }
 
+static walk begin(plr_arena *arena, plr_scene *scene, plr_flat *flat, plr_diags *diags) {
+    return (walk){.arena = arena,
+                  .flat = flat,
+                  .diags = diags,
+                  .scope = PLR_NEW(arena, plr_scope),
+                  .bounds = {.arena = arena, .scene = scene, .flat = flat, .diags = diags}};
+}
+
 void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_world, plr_flat *flat,
                  plr_diags *diags) {
     *flat = (plr_flat){.has_eye = eye_to_world != NULL};
     if (eye_to_world)
         flat->eye_to_world = *eye_to_world;
-    walk w = {.arena = arena, .flat = flat, .diags = diags, .scope = PLR_NEW(arena, plr_scope)};
+    walk w = begin(arena, scene, flat, diags);
     plr_matrix identity = plr_matrix_identity();
     for (size_t i = 0; i < plr_scene_root_count(scene); i++)
         visit(&w, plr_scene_root(scene, i), &identity);
@@ -369,7 +405,7 @@ void plr_flatten(plr_arena *arena, plr_scene *scene, const plr_matrix *eye_to_wo
 void plr_flatten_node(plr_arena *arena, plr_scene *scene, plr_node *node, const plr_flat *around,
                       plr_flat *flat, plr_diags *diags) {
     *flat = (plr_flat){.has_eye = around->has_eye, .eye_to_world = around->eye_to_world};
-    walk w = {.arena = arena, .flat = flat, .diags = diags, .scope = PLR_NEW(arena, plr_scope)};
+    walk w = begin(arena, scene, flat, diags);
     plr_matrix identity = plr_matrix_identity();
     visit(&w, node, &identity);
     bool *inside = PLR_NEW_ARRAY(arena, plr_scene_node_count(scene) + 1, bool);

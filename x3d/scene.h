@@ -125,6 +125,7 @@ struct plr_scene {
     bool is_2005;               /* the defaults are those of 2005 now */
     x3d_node_list two_dialects; /* nodes whose type has other defaults there */
     struct x3d_events *events;  /* NULL until a time is asked for */
+    plr_node *box_edges;        /* NULL until a bounding box is to be seen */
     uint64_t revision;
     uint64_t set_revision; /* the last one that a setter made */
 };
