@@ -79,23 +79,7 @@ static bool load(plr_scene *scene, const plr_node *node, const plr_string *url, 
 
 /* ---- Urls ---- */
 
-typedef enum outcome {
-    FINE,
-    NOT_LOADED,
-    NOT_UNDERSTOOD
-} outcome;
-
-static outcome try_url(plr_scene *scene, const plr_node *node, const plr_field *urls, size_t index,
-                       plr_file_decoder decode, void *user, plr_diags *diags) {
-    plr_bytes bytes;
-    if (!load(scene, node, &urls->value.strings[index], &bytes, diags))
-        return NOT_LOADED;
-    bool fine = decode(user, scene, &bytes, url_place(urls, index), diags);
-    plr_bytes_free(&bytes);
-    return fine ? FINE : NOT_UNDERSTOOD;
-}
-
-bool plr_node_file(plr_scene *scene, const plr_node *node, plr_file_decoder decode, void *user,
+bool plr_node_urls(plr_scene *scene, const plr_node *node, plr_url_reader read, void *user,
                    plr_diags *diags) {
     const plr_field *urls = plr_node_field(node, "url");
     if (!urls || urls->type != PLR_MFSTRING || urls->count == 0) {
@@ -104,25 +88,48 @@ bool plr_node_file(plr_scene *scene, const plr_node *node, plr_file_decoder deco
         return false;
     }
     plr_diags *first = plr_diags_create(NULL), *faults = plr_diags_create(NULL);
-    outcome last = NOT_LOADED;
+    plr_url_outcome last = PLR_URL_NOT_LOADED;
     bool any = false;
-    for (size_t i = 0; first && faults && i < urls->count && last != FINE; i++) {
+    for (size_t i = 0; first && faults && i < urls->count && last != PLR_URL_FINE; i++) {
         plr_diags *now = plr_diags_create(NULL);
-        last = try_url(scene, node, urls, i, decode, user, now);
-        any = any || last == NOT_UNDERSTOOD;
-        if (last == FINE) /* what is said about a file that is taken stays as it is */
+        last = read(user, scene, &urls->value.strings[i], url_place(urls, i), now);
+        any = any || last == PLR_URL_NOT_UNDERSTOOD;
+        if (last == PLR_URL_FINE) /* what is said about a file that is taken stays as it is */
             repeat_diags(faults, diags, true);
         repeat_diags(now,
-                     last == FINE             ? diags
-                     : last == NOT_UNDERSTOOD ? faults
-                     : i                      ? NULL
-                                              : first,
+                     last == PLR_URL_FINE             ? diags
+                     : last == PLR_URL_NOT_UNDERSTOOD ? faults
+                     : i                              ? NULL
+                                                      : first,
                      false);
         plr_diags_destroy(&now);
     }
-    if (last != FINE)
+    if (last != PLR_URL_FINE)
         repeat_diags(any ? faults : first, diags, false);
     plr_diags_destroy(&first);
     plr_diags_destroy(&faults);
-    return last == FINE;
+    return last == PLR_URL_FINE;
+}
+
+typedef struct decoding {
+    const plr_node *node;
+    plr_file_decoder decode;
+    void *user;
+} decoding;
+
+static plr_url_outcome decode_url(void *user, plr_scene *scene, const plr_string *url,
+                                  plr_place place, plr_diags *diags) {
+    const decoding *d = user;
+    plr_bytes bytes;
+    if (!load(scene, d->node, url, &bytes, diags))
+        return PLR_URL_NOT_LOADED;
+    bool fine = d->decode(d->user, scene, &bytes, place, diags);
+    plr_bytes_free(&bytes);
+    return fine ? PLR_URL_FINE : PLR_URL_NOT_UNDERSTOOD;
+}
+
+bool plr_node_file(plr_scene *scene, const plr_node *node, plr_file_decoder decode, void *user,
+                   plr_diags *diags) {
+    decoding d = {node, decode, user};
+    return plr_node_urls(scene, node, decode_url, &d, diags);
 }

@@ -123,6 +123,7 @@ static const struct loader {
     {"ImageTexture3D", PLR_TEXTURE_3D, false, load_volume},
     {"PixelTexture3D", PLR_TEXTURE_3D, false, load_volume},
     {"ComposedTexture3D", PLR_TEXTURE_3D, false, load_volume},
+    {"ImageTextureAtlas", PLR_TEXTURE_3D, false, load_volume},
     {"RenderedTexture", PLR_TEXTURE_2D, true, generate_picture},
     {"GeneratedCubeMapTexture", PLR_TEXTURE_CUBE, true, generate_square},
     {"GeneratedShadowMap", PLR_TEXTURE_2D_SHADOW, true, generate_shadow_map},

@@ -1,7 +1,6 @@
 /* Volumes: which format, limits, ranges, single values. */
 #include "engine/volume_internal.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,19 +62,28 @@ static bool parse_packed(const plr_volume_source *source, plr_volume *volume) {
     return ok;
 }
 
+plr_plain_numbers plr_plain_numbers_begin(void) {
+    plr_plain_numbers numbers = {.plain = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
+    if (numbers.plain)
+        numbers.before = uselocale(numbers.plain);
+    return numbers;
+}
+
+void plr_plain_numbers_end(plr_plain_numbers *numbers) {
+    if (numbers->plain) {
+        uselocale(numbers->before);
+        freelocale(numbers->plain);
+    }
+}
+
 bool plr_volume_parse(const plr_volume_source *source, plr_volume *volume) {
     memset(volume, 0, sizeof *volume);
-    /* strtod must not follow the host's language */
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    locale_t before = plain ? uselocale(plain) : (locale_t)0;
+    plr_plain_numbers plain = plr_plain_numbers_begin();
     bool ok = plr_is_gzip(source->data, source->length) ? parse_packed(source, volume)
                                                         : parse_format(source, volume);
-    if (plain) {
-        uselocale(before);
-        freelocale(plain);
-    }
+    plr_plain_numbers_end(&plain);
     if (!ok)
-        memset(volume, 0, sizeof *volume);
+        plr_volume_free(volume);
     return ok;
 }
 
@@ -83,6 +91,7 @@ void plr_volume_free(plr_volume *volume) {
     if (!volume)
         return;
     free(volume->voxels);
+    plr_labels_free(&volume->labels);
     memset(volume, 0, sizeof *volume);
 }
 
@@ -109,6 +118,16 @@ bool plr_volume_check_size(const uint64_t size[3], uint64_t components, plr_voxe
         return false;
     }
     return true;
+}
+
+uint64_t plr_volume_time_point(const plr_volume_source *source, uint64_t count) {
+    if (!source->time_given || source->time_point < count)
+        return source->time_given ? source->time_point : 0;
+    plr_diags_add_as(
+        source->diags, PLR_WARNING, PLR_CODE_BAD_VALUE, source->time_place,
+        "there is no time point %u; %s has %llu, counted from 0, and the last is taken",
+        source->time_point, source->name, (unsigned long long)count);
+    return count - 1;
 }
 
 /* ---- ranges ---- */

@@ -29,6 +29,21 @@ typedef enum plr_volume_space {
     PLR_SPACE_LEFT_HANDED /* nothing else is known of it */
 } plr_volume_space;
 
+/* What a segment number means. */
+typedef struct plr_label {
+    uint32_t value;
+    uint32_t order; /* in the file */
+    char *name;     /* UTF-8, at most 255 bytes */
+    bool has_color;
+    float color[4]; /* straight RGBA, 0..1 */
+} plr_label;
+
+/* Ascending by value, each value once: the first of a file counts. At most 65536. */
+typedef struct plr_labels {
+    plr_label *items; /* owned */
+    size_t count;
+} plr_labels;
+
 /* Voxels as the file stores them (native byte order), first axis fastest, components innermost.
  * physical value = stored * slope + intercept. */
 typedef struct plr_volume {
@@ -47,19 +62,20 @@ typedef struct plr_volume {
     double origin[3];        /* centre of voxel (0,0,0) */
     double metres;           /* per unit of directions and origin; 0 if the file does not say */
     plr_volume_space space;
-    bool unplaced; /* the file does not say where: the origin means nothing */
+    bool unplaced;     /* the file does not say where: the origin means nothing */
+    plr_labels labels; /* what the file says of its values as segment numbers; owned */
 } plr_volume;
 
-/* Reads NRRD or NIfTI-1 from the bytes of a file (gunzipped or not) that the scene loaded; a
- * detached header's data files are loaded beside it through the scene's rules. The place is that of
- * the url; faults in a text header are reported at the header's own line (file = name of the
- * bytes). */
-bool plr_volume_read(plr_scene *scene, const plr_bytes *bytes, plr_place place, plr_volume *volume,
-                     plr_diags *diags);
-/* From a texture node: ImageTexture3D (url), PixelTexture3D, ComposedTexture3D. */
+/* From a texture node: ImageTexture3D (url), PixelTexture3D, ComposedTexture3D, ImageTextureAtlas.
+ * Files, and those that they refer to, are loaded through the scene's rules. Faults are reported at
+ * the url, in a text header at the header's own line. */
 bool plr_volume_from_node(plr_scene *scene, const plr_node *texture, plr_volume *volume,
                           plr_diags *diags);
 void plr_volume_free(plr_volume *volume);
+
+/* NULL if nothing is known of the number. */
+const plr_label *plr_labels_find(const plr_labels *labels, uint32_t value);
+void plr_labels_free(plr_labels *labels);
 
 /* Stored value of a voxel as a physical number. */
 double plr_volume_value(const plr_volume *volume, uint32_t x, uint32_t y, uint32_t z, uint32_t c);

@@ -3,6 +3,8 @@
 #ifndef PLR_ENGINE_VOLUME_INTERNAL_H
 #define PLR_ENGINE_VOLUME_INTERNAL_H
 
+#include <locale.h>
+
 #include "engine/volume.h"
 
 #define PLR_VOLUME_MAX_SIDE 16384u
@@ -15,6 +17,11 @@ typedef struct plr_volume_source {
     const char *name; /* of the file, for messages and as the referrer of detached data */
     plr_place place;  /* of the url: where faults without a line of their own are reported */
     plr_diags *diags;
+    /* Of data with more than three dimensions: which volume. Not given: the first, and a warning.
+     */
+    bool time_given;
+    uint32_t time_point;
+    plr_place time_place;
     /* Loads the file `name` beside `referrer`; NULL: detached data are refused. */
     bool (*load)(void *user, const char *referrer, const char *name, bool gunzip, plr_place place,
                  plr_bytes *bytes, plr_diags *diags);
@@ -38,6 +45,9 @@ bool plr_volume_parse(const plr_volume_source *source, plr_volume *volume);
 bool plr_volume_parse_nrrd(const plr_volume_source *source, plr_volume *volume);
 bool plr_volume_parse_nifti(const plr_volume_source *source, plr_volume *volume);
 
+/* The volume to read of `count` of them, told by `source`; warns where that is none. */
+uint64_t plr_volume_time_point(const plr_volume_source *source, uint64_t count);
+
 /* Gives minimum and maximum their values where the file declares none (NAN: not declared). */
 void plr_volume_set_range(plr_volume *volume, double declared_minimum, double declared_maximum);
 
@@ -46,6 +56,35 @@ size_t plr_volume_count(const plr_volume *volume);
 /* Checks sides and bytes against the limits; false with an error at `place`. */
 bool plr_volume_check_size(const uint64_t size[3], uint64_t components, plr_voxel_type type,
                            plr_place place, plr_diags *diags);
+
+/* The pattern with its one %d (%03d, %i, %u) replaced; false where it has another form. */
+bool plr_pattern_expand(const char *pattern, size_t length, int64_t number, char *name,
+                        size_t size);
+
+/* ---- Names of segments ---- */
+
+/* Adds one to a list that is not finished. `color`: straight RGBA, or NULL. False beyond the limit
+ * or without memory. */
+bool plr_labels_add(plr_labels *labels, uint32_t value, const char *name, size_t length,
+                    const float *color);
+/* Sorts and drops what comes twice. */
+void plr_labels_finish(plr_labels *labels);
+/* Reads lines "number name [red green blue [alpha]]" into an empty list and finishes it. False,
+ * silently, for text that is something else. A bad line further on is reported where `file` names
+ * the text. */
+bool plr_labels_read(plr_labels *labels, const char *text, size_t length, const char *file,
+                     plr_diags *diags);
+
+/* The labels in a NIfTI file's bytes from the end of the header on, if there are any. */
+void plr_nifti_read_labels(const char *data, size_t start, size_t end, bool swapped,
+                           plr_labels *labels);
+
+/* strtod must not follow the host's language: between these it does not. */
+typedef struct plr_plain_numbers {
+    locale_t plain, before;
+} plr_plain_numbers;
+plr_plain_numbers plr_plain_numbers_begin(void);
+void plr_plain_numbers_end(plr_plain_numbers *numbers);
 
 /* ---- Encodings of voxel data ---- */
 

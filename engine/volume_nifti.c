@@ -74,11 +74,13 @@ typedef struct nifti {
     const layout *at;
     bool swapped, pair;
     uint64_t size[3], time, vectors;
+    uint64_t point;      /* in time: which of the volumes */
     uint64_t count;      /* elements to read, components and vectors included */
     unsigned components; /* interleaved in the file */
     bool colour;
     plr_voxel_type type;
-    uint64_t offset; /* of the voxels */
+    uint64_t offset;   /* of the voxels */
+    uint64_t text_end; /* of what may stand between header and voxels */
 } nifti;
 
 #define FAIL(header, ...)                                                                          \
@@ -150,7 +152,8 @@ static bool read_sizes(nifti *header) {
         header->size[i] = (uint64_t)dim[i + 1];
     header->time = (uint64_t)dim[4];
     header->vectors = (uint64_t)dim[5];
-    if (header->time > 1 || dim[6] > 1 || dim[7] > 1)
+    bool chosen = header->source->time_given;
+    if ((header->time > 1 && !chosen) || dim[6] > 1 || dim[7] > 1)
         plr_diags_add_as(
             header->source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, header->source->place,
             "%s holds more than one volume; only the first is used", header->source->name);
@@ -175,11 +178,13 @@ static bool read_datatype(nifti *header) {
 static bool count_voxels(nifti *header) {
     bool planes =
         header->vectors > 1 && header->time == 1 && header->vectors * header->components <= 4;
-    if (header->vectors > 1 && !planes)
+    bool chosen = header->source->time_given && header->time == 1;
+    if (header->vectors > 1 && !planes && !chosen)
         plr_diags_add_as(header->source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME,
                          header->source->place,
                          "%s holds %llu values a voxel; only the first is used",
                          header->source->name, (unsigned long long)header->vectors);
+    uint64_t vectors = header->vectors;
     if (!planes)
         header->vectors = 1;
     uint64_t components = header->vectors * header->components;
@@ -187,6 +192,8 @@ static bool count_voxels(nifti *header) {
                                header->source->diags))
         return false;
     header->count = header->size[0] * header->size[1] * header->size[2] * components;
+    header->point =
+        plr_volume_time_point(header->source, header->time > 1 || planes ? header->time : vectors);
     return true;
 }
 
@@ -201,7 +208,10 @@ static bool read_offset(nifti *header) {
         offset = least;
     if (!(offset >= least && offset < 9e15))
         return FAIL(header, "%s says that voxels begin at byte %g", header->source->name, offset);
-    header->offset = (uint64_t)offset;
+    header->text_end = header->pair ? header->source->length : (uint64_t)offset;
+    /* below 2^53, and 2^31 volumes of at most 2^32 bytes */
+    header->offset =
+        (uint64_t)offset + header->point * header->count * plr_voxel_size(header->type);
     return true;
 }
 
@@ -385,5 +395,8 @@ bool plr_volume_parse_nifti(const plr_volume_source *source, plr_volume *volume)
     }
     set_geometry(&header, volume);
     set_values(&header, volume);
+    size_t end = header.text_end < source->length ? (size_t)header.text_end : source->length;
+    plr_nifti_read_labels(source->data, header.at->header_size, end, header.swapped,
+                          &volume->labels);
     return true;
 }

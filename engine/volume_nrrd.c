@@ -195,7 +195,7 @@ static const name_row encodings[] = {
 static const name_row kinds[] = {
     {"domain", NRRD_SPATIAL},
     {"space", NRRD_SPATIAL},
-    {"time", NRRD_FIRST_ONLY},
+    {"time", NRRD_TIME},
     {"scalar", NRRD_FIRST_ONLY},
     {"stub", NRRD_FIRST_ONLY},
     {"none", NRRD_NO_ROLE},
@@ -591,8 +591,10 @@ static bool read_field(nrrd *header, nrrd_text line) {
     const char *colon = memchr(line.at, ':', (size_t)(line.end - line.at));
     if (!colon)
         return FAIL(header, line.at, "this is no field of a header; an empty line ends the header");
-    if (colon + 1 < line.end && colon[1] == '=')
+    if (colon + 1 < line.end && colon[1] == '=') {
+        plr_nrrd_read_key(header, (nrrd_text){line.at, colon}, (nrrd_text){colon + 2, line.end});
         return true;
+    }
     char name[32];
     normalise((nrrd_text){line.at, colon}, false, name, sizeof name);
     nrrd_text value = trim((nrrd_text){colon + 1, line.end});

@@ -21,7 +21,8 @@ typedef enum nrrd_role {
     NRRD_NO_ROLE, /* the header does not say */
     NRRD_SPATIAL,
     NRRD_COMPONENTS, /* a list, a vector, a colour */
-    NRRD_FIRST_ONLY  /* time, or what there is no room for: only index 0 is kept */
+    NRRD_TIME,
+    NRRD_FIRST_ONLY /* time, or what there is no room for: only one index is kept */
 } nrrd_role;
 
 /* A stretch of the header. */
@@ -42,6 +43,8 @@ typedef struct nrrd_per_axis {
     size_t count;
     plr_place place;
 } nrrd_per_axis;
+
+typedef struct nrrd_segment nrrd_segment;
 
 typedef struct nrrd {
     const plr_volume_source *source;
@@ -74,12 +77,22 @@ typedef struct nrrd {
     nrrd_text file_name; /* or the pattern, or the first line of the list */
     int64_t first, last, step;
     uint64_t file_count, file_dimension; /* the latter 0: not given */
+    /* key/value pairs */
+    nrrd_segment *segments; /* owned; by their number in the keys */
+    size_t segment_count;
+    plr_labels labels; /* owned */
 } nrrd;
 
-/* Reads the fields; false with an error at the header's own line. */
+/* Reads the fields; false with an error at the header's own line. To be freed in both cases. */
 bool plr_nrrd_read_header(nrrd *header, const plr_volume_source *source);
 /* Reads the voxels into `volume` (size, components, type, voxels). */
 bool plr_nrrd_read_data(const nrrd *header, plr_volume *volume);
+
+void plr_nrrd_free(nrrd *header);
+/* A key/value pair; what is no label is read over. */
+void plr_nrrd_read_key(nrrd *header, nrrd_text key, nrrd_text value);
+/* The labels of the keys, finished; they are the caller's. */
+void plr_nrrd_take_labels(nrrd *header, plr_labels *labels);
 
 /* Where `at`, on the line being read, stands. */
 plr_place plr_nrrd_place(const nrrd *header, const char *at);

@@ -2,7 +2,6 @@
 #include "engine/volume_nrrd.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,11 +10,14 @@
 /* Which axes of the file become x, y, z and components; -1: none. */
 typedef struct axes {
     int spatial[3], components;
+    int time;                      /* of the others, the axis along which a sample may be chosen */
+    uint64_t index[NRRD_MAX_AXES]; /* the sample taken along the others */
     nrrd_role roles[NRRD_MAX_AXES];
 } axes;
 
-static void warn_first_only(const nrrd *header, size_t axis) {
-    if (header->sizes[axis] > 1)
+static void warn_first_only(const nrrd *header, const axes *a, size_t axis) {
+    bool chosen = header->source->time_given && a->time == (int)axis;
+    if (header->sizes[axis] > 1 && !chosen)
         plr_diags_add_as(
             header->source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, header->sizes_place,
             "axis %zu of %llu samples is neither space nor components of a voxel; only "
@@ -44,6 +46,24 @@ static void guess_roles(const nrrd *header, nrrd_role *roles) {
         }
 }
 
+/* Along which of the axes that are left over a sample is chosen, and which: the one of time, else
+ * the slowest. */
+static void choose_samples(const nrrd *header, axes *a) {
+    a->time = -1;
+    for (size_t i = 0; i < header->dimension; i++) {
+        bool is_time = header->kinds_given.place.line && header->kinds[i] == NRRD_TIME;
+        a->index[i] = 0;
+        if (a->roles[i] == NRRD_FIRST_ONLY && (header->sizes[i] > 1 || is_time))
+            if (a->time < 0 || header->kinds[a->time] != NRRD_TIME || is_time)
+                a->time = (int)i;
+    }
+    if (a->time >= 0)
+        a->index[a->time] = plr_volume_time_point(header->source, header->sizes[a->time]);
+    for (size_t i = 0; i < header->dimension; i++)
+        if (a->roles[i] == NRRD_FIRST_ONLY)
+            warn_first_only(header, a, i);
+}
+
 static bool assign_axes(const nrrd *header, axes *a) {
     size_t spatial = 0;
     guess_roles(header, a->roles);
@@ -57,42 +77,15 @@ static bool assign_axes(const nrrd *header, axes *a) {
         else if (is_components)
             a->components = (int)i;
         else
-            warn_first_only(header, i);
-        if (!is_space && !is_components)
             a->roles[i] = NRRD_FIRST_ONLY;
     }
+    choose_samples(header, a);
     if (spatial == 0)
         return NRRD_FAIL(header, header->sizes_place, "no axis of the data is one of space");
     return true;
 }
 
 /* ---- data files ---- */
-
-/* The pattern with its one %d (%03d, %i, %u) replaced; false where it has another form. */
-static bool expand_pattern(nrrd_text pattern, int64_t number, char *name, size_t size) {
-    size_t used = 0, numbers = 0;
-    while (pattern.at < pattern.end && used + 48 < size) {
-        char c = *pattern.at++;
-        if (c != '%') {
-            name[used++] = c;
-            continue;
-        }
-        if (pattern.at < pattern.end && *pattern.at == '%') {
-            name[used++] = *pattern.at++;
-            continue;
-        }
-        bool zero = pattern.at < pattern.end && *pattern.at == '0';
-        int digits = 0;
-        while (pattern.at < pattern.end && *pattern.at >= '0' && *pattern.at <= '9' && digits < 32)
-            digits = digits * 10 + (*pattern.at++ - '0');
-        if (pattern.at == pattern.end || !strchr("diu", *pattern.at++) || digits > 32 || numbers++)
-            return false;
-        used += (size_t)snprintf(name + used, size - used, zero ? "%0*lld" : "%*lld", digits,
-                                 (long long)number);
-    }
-    name[used] = '\0';
-    return numbers == 1 && pattern.at == pattern.end;
-}
 
 /* The next line of the list; `list` goes on behind it. Comments are no names. */
 static bool next_in_list(nrrd_text *list, char *name, size_t size) {
@@ -120,8 +113,8 @@ static bool file_name(const nrrd *header, uint64_t index, nrrd_text *list, char 
     if (header->files == NRRD_LIST)
         return next_in_list(list, name, size);
     if (header->files == NRRD_PATTERN)
-        return expand_pattern(header->file_name, header->first + (int64_t)index * header->step,
-                              name, size);
+        return plr_pattern_expand(header->file_name.at, length,
+                                  header->first + (int64_t)index * header->step, name, size);
     if (length >= size)
         return false;
     memcpy(name, header->file_name.at, length);
@@ -322,9 +315,9 @@ static bool count_samples(const nrrd *header, const axes *a, uint64_t *total, ui
     for (size_t i = 0; i < header->dimension; i++) {
         if (*total > PLR_VOLUME_MAX_BYTES * 16 / header->sizes[i])
             return NRRD_FAIL(header, header->sizes_place, "there are too many voxels");
+        bool all = a->roles[i] != NRRD_FIRST_ONLY;
+        *needed += *total * (all ? header->sizes[i] - 1 : a->index[i]);
         *total *= header->sizes[i];
-        if (a->roles[i] != NRRD_FIRST_ONLY)
-            *needed = *total;
     }
     if (*needed * plr_voxel_size(header->type) > PLR_VOLUME_MAX_BYTES)
         return NRRD_FAIL(header, header->sizes_place, "the voxels are more than %llu bytes",
@@ -332,11 +325,21 @@ static bool count_samples(const nrrd *header, const axes *a, uint64_t *total, ui
     return true;
 }
 
-/* Puts components innermost and leaves out all but the first sample of what is no axis of space. */
+/* Samples before the first that the volume needs. */
+static uint64_t first_sample(const nrrd *header, const axes *a) {
+    uint64_t stride = 1, first = 0;
+    for (size_t i = 0; i < header->dimension; i++) {
+        first += stride * a->index[i];
+        stride *= header->sizes[i];
+    }
+    return first;
+}
+
+/* Puts components innermost and leaves out all but one sample of what is no axis of space. */
 static bool reorder(const nrrd *header, const axes *a, plr_volume *volume) {
     const int order[4] = {a->components, a->spatial[0], a->spatial[1], a->spatial[2]};
-    uint64_t count[4], stride[4], packed = 1;
-    bool in_order = true;
+    uint64_t count[4], stride[4], packed = 1, first = first_sample(header, a);
+    bool in_order = first == 0;
     for (int i = 0; i < 4; i++) {
         count[i] = order[i] < 0 ? 1 : header->sizes[order[i]];
         stride[i] = 1;
@@ -350,7 +353,8 @@ static bool reorder(const nrrd *header, const axes *a, plr_volume *volume) {
     void *ordered;
     if (!take_memory(header, packed, &ordered))
         return false;
-    plr_gather(ordered, volume->voxels, plr_voxel_size(volume->type), count, stride);
+    size_t size = plr_voxel_size(volume->type);
+    plr_gather(ordered, (const char *)volume->voxels + first * size, size, count, stride);
     free(volume->voxels);
     volume->voxels = ordered;
     return true;
@@ -430,17 +434,25 @@ static void set_geometry(const nrrd *header, plr_volume *volume) {
         volume->metres = header->units[spatial[0]];
 }
 
+static void set_range(nrrd *header, plr_volume *volume) {
+    if (header->minimum >= header->maximum) {
+        plr_diags_add_as(header->source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME,
+                         header->sizes_place,
+                         "min is not less than max; the range of the data is used");
+        header->minimum = header->maximum = NAN;
+    }
+    plr_volume_set_range(volume, header->minimum, header->maximum);
+}
+
 bool plr_volume_parse_nrrd(const plr_volume_source *source, plr_volume *volume) {
     nrrd header;
-    if (!plr_nrrd_read_header(&header, source) || !plr_nrrd_read_data(&header, volume))
-        return false;
-    volume->slope = 1;
-    set_geometry(&header, volume);
-    if (header.minimum >= header.maximum) {
-        plr_diags_add_as(source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, header.sizes_place,
-                         "min is not less than max; the range of the data is used");
-        header.minimum = header.maximum = NAN;
+    bool fine = plr_nrrd_read_header(&header, source) && plr_nrrd_read_data(&header, volume);
+    if (fine) {
+        volume->slope = 1;
+        set_geometry(&header, volume);
+        set_range(&header, volume);
+        plr_nrrd_take_labels(&header, &volume->labels);
     }
-    plr_volume_set_range(volume, header.minimum, header.maximum);
-    return true;
+    plr_nrrd_free(&header);
+    return fine;
 }

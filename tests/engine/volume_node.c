@@ -16,8 +16,10 @@ static void write_file(const char *name, const void *data, size_t length) {
 }
 
 static void remove_files(void) {
-    static const char *const names[] = {"a.nrrd", "a.nhdr",   "a.raw",    "a.hdr",
-                                        "a.img",  "b.nii.gz", "deep.png", "a.dds"};
+    static const char *const names[] = {
+        "a.nrrd",   "a.nhdr",  "a.raw",     "a.hdr",    "a.img",   "b.nii.gz",
+        "deep.png", "a.dds",   "b.nii.txt", "a.txt",    "s08.png", "s09.png",
+        "s10.png",  "s11.png", "whole.png", "part.png", "t.nrrd",  "slice.nrrd"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[256];
         snprintf(path, sizeof path, "%s/%s", base, names[i]);
@@ -150,16 +152,157 @@ static void test_file_faults(void) {
     plr_diags_destroy(&diags);
 }
 
-/* A grey PNG of one pixel of 16 bits. */
-static void write_png(void) {
+/* ---- Labels beside, time points ---- */
+
+static void check_label(const char *url, uint32_t value, const char *name) {
+    char text[128];
+    plr_volume v = {0};
+    plr_diags *diags = plr_diags_create(NULL);
+    snprintf(text, sizeof text, "ImageTexture3D { url \"%s\" }", url);
+    bool fine = read_texture(text, &v, diags) && plr_diags_count(diags) == 0;
+    const plr_label *label = plr_labels_find(&v.labels, value);
+    TAP_RESULT(fine && (name ? label && strcmp(label->name, name) == 0 : v.labels.count == 0),
+               "labels beside %s", url);
+    plr_volume_free(&v);
+    plr_diags_destroy(&diags);
+}
+
+static void test_labels(void) {
+    check_label("b.nii.gz", 3, NULL);
+    write_file("a.txt", "This is some text.\n3 three\n", 27);
+    check_label("a.nrrd", 3, NULL);
+    write_file("b.nii.txt", "3 three\n", 8);
+    check_label("b.nii.gz", 3, "three");
+    write_file("a.txt", "3 three\nmore\n", 13);
+    plr_volume v;
+    plr_diags *diags = plr_diags_create(NULL);
+    CHECK(read_texture("ImageTexture3D { url \"a.nhdr\" }", &v, diags) && v.labels.count == 1);
+    CHECK_STR(last_diag(diags), "a.txt:2:1 warning this is no label (number, name and perhaps a "
+                                "colour); labels are read up to here");
+    plr_volume_free(&v);
+    plr_diags_destroy(&diags);
+}
+
+static void check_time(const char *field, const char *bytes, const char *message) {
+    char text[128];
+    plr_volume v = {0};
+    plr_diags *diags = plr_diags_create(NULL);
+    snprintf(text, sizeof text, "ImageTexture3D {\nurl \"t.nrrd\" %s }", field);
+    bool fine = read_texture(text, &v, diags) && v.size[0] == 2 && memcmp(v.voxels, bytes, 2) == 0;
+    TAP_RESULT(fine, "%s gives %s", field, bytes);
+    CHECK_STR(last_diag(diags), message);
+    plr_volume_free(&v);
+    plr_diags_destroy(&diags);
+}
+
+static void test_time(void) {
+    static const char series[] = "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 1 1 3\n"
+                                 "kinds: domain domain domain time\nencoding: raw\n\nabcdef";
+    write_file("t.nrrd", series, sizeof series - 1);
+    check_time("timePoint 1", "cd", "(none)");
+    check_time("timePoint 0", "ab", "(none)");
+    check_time("timePoint 7", "ef",
+               "scene.x3dv:5:14 warning there is no time point 7; t.nrrd has 3, counted from 0, "
+               "and the last is taken");
+    check_time("", "ab",
+               "t.nrrd:4:8 warning axis 3 of 3 samples is neither space nor components of a voxel; "
+               "only the first sample is used");
+}
+
+/* ---- Numbered files, atlases ---- */
+
+static void write_grey(const char *name, uint32_t width, uint32_t height, unsigned depth,
+                       const unsigned char *rows);
+
+static void test_numbered(void) {
+    write_grey("s08.png", 2, 1, 8, (const unsigned char[]){0, 1, 2});
+    write_grey("s09.png", 2, 1, 8, (const unsigned char[]){0, 3, 4});
+    write_grey("s10.png", 2, 1, 16, (const unsigned char[]){0, 5, 5, 6, 6});
+    plr_volume v;
+    CHECK(read_texture("ImageTexture3D { url \"s%02d.png 8 9\" }", &v, NULL));
+    CHECK(v.size[0] == 2 && v.size[1] == 1 && v.size[2] == 2 && v.type == PLR_VOXEL_U8 &&
+          memcmp(v.voxels, "\1\2\3\4", 4) == 0);
+    plr_volume_free(&v);
+    CHECK(read_texture("ImageTexture3D { url \"s%02d.png 9 8 -1\" }", &v, NULL));
+    CHECK(v.size[2] == 2 && memcmp(v.voxels, "\3\4\1\2", 4) == 0);
+    plr_volume_free(&v);
+    CHECK(read_texture("ImageTexture3D { url \"s%02d.png 8 10 2\" }", &v, NULL));
+    CHECK(v.type == PLR_VOXEL_U16 &&
+          memcmp(v.voxels, (const uint16_t[]){0x101, 0x202, 0x505, 0x606}, 8) == 0);
+    plr_volume_free(&v);
+    check_fault("ImageTexture3D { url \"s%02d.png 8 11\" }",
+                "scene.x3dv:4:36 error 's11.png' does not exist");
+    write_grey("s11.png", 1, 1, 8, (const unsigned char[]){0, 1});
+    check_fault("ImageTexture3D { url \"s%02d.png 8 11\" }",
+                "scene.x3dv:4:36 error slice 3 is 1 x 1 with 1 components, but the first is 2 x 1 "
+                "with 1");
+    check_fault("ImageTexture3D { url \"s%02d.png 1 99999\" }",
+                "scene.x3dv:4:36 error 99999 slices are outside 1..16384");
+    check_fault("ImageTexture3D { url \"a.txt 1 2\" }",
+                "scene.x3dv:4:36 error 'a.txt 1 2' does not exist");
+    check_fault("ImageTexture3D { url \"../s%02d.png 1 2\" }",
+                "scene.x3dv:4:36 error '../s01.png' is outside the folders that may be read");
+}
+
+static bool is_atlas(const char *fields, uint32_t w, uint32_t h, uint32_t d, const char *bytes) {
+    char text[256];
+    plr_volume v = {0};
+    snprintf(text, sizeof text, "ImageTextureAtlas { %s }", fields);
+    bool same = read_texture(text, &v, NULL) && v.size[0] == w && v.size[1] == h &&
+                v.size[2] == d && memcmp(v.voxels, bytes, (size_t)w * h * d) == 0;
+    plr_volume_free(&v);
+    return same;
+}
+
+static void test_atlas(void) {
+    /* 4 x 4 pixels, rows from the top 01 23 / 45 67 / 89 ab / cd ef */
+    write_grey("whole.png", 4, 4, 8, (const unsigned char[]){0, 0, 1, 2,  3,  0, 4,  5,  6,  7,
+                                                             0, 8, 9, 10, 11, 0, 12, 13, 14, 15});
+    CHECK(is_atlas("url \"whole.png\" slicesOverX 2 slicesOverY 2", 2, 2, 4,
+                   "\0\1\4\5\2\3\6\7\10\11\14\15\12\13\16\17"));
+    CHECK(is_atlas("url \"whole.png\" slicesOverX 2 slicesOverY 2 numberOfSlices 3", 2, 2, 3,
+                   "\0\1\4\5\2\3\6\7\10\11\14\15"));
+    CHECK(is_atlas("url \"whole.png\" slicesOverX 1 slicesOverY 4", 4, 1, 4,
+                   "\0\1\2\3\4\5\6\7\10\11\12\13\14\15\16\17"));
+    /* 8 pixels for 3 tiles of 2.67: the pixels at a quarter and three quarters of each, 0.67 2.00
+     * 3.33 4.67 6.00 7.33 */
+    write_grey("part.png", 8, 1, 8, (const unsigned char[]){0, 10, 11, 12, 13, 14, 15, 16, 17});
+    CHECK(is_atlas("url \"part.png\" slicesOverX 3 slicesOverY 1", 2, 1, 3, "\12\14\15\16\20\21"));
+    CHECK(is_atlas("url \"whole.png\" slicesOverX 3 slicesOverY 1", 1, 4, 3,
+                   "\0\4\10\14\2\6\12\16\3\7\13\17"));
+    check_fault("ImageTextureAtlas { url \"whole.png\" }",
+                "scene.x3dv:4:14 error slicesOverX and slicesOverY must say how the picture is "
+                "divided: 0 x 0 tiles are outside 1..32768");
+    check_fault("ImageTextureAtlas { url \"whole.png\" slicesOverX 5 slicesOverY 1 }",
+                "scene.x3dv:4:39 error a picture of 4 x 4 pixels has no room for 5 x 1 tiles");
+    check_fault("ImageTextureAtlas { url \"none.png\" slicesOverX 1 slicesOverY 1 }",
+                "scene.x3dv:4:39 error 'none.png' does not exist");
+    plr_volume v;
+    plr_diags *diags = plr_diags_create(NULL);
+    CHECK(read_texture("ImageTextureAtlas { url \"whole.png\" slicesOverX 2 slicesOverY 1 "
+                       "numberOfSlices 3 }",
+                       &v, diags));
+    CHECK(v.size[0] == 2 && v.size[1] == 4 && v.size[2] == 2);
+    CHECK_STR(last_diag(diags), "scene.x3dv:4:78 warning 3 slices are more than 2 x 1 tiles");
+    plr_volume_free(&v);
+    plr_diags_destroy(&diags);
+}
+
+/* A grey PNG of 8 or 16 bits; each row begins with a 0. */
+static void write_grey(const char *name, uint32_t width, uint32_t height, unsigned depth,
+                       const unsigned char *rows) {
     static file f;
+    char head[17] = "IHDR";
+    head[7] = (char)width;
+    head[11] = (char)height;
+    head[12] = (char)depth;
     const struct {
         const char *data;
         size_t length;
-    } chunks[] = {{"IHDR\0\0\0\1\0\0\0\1\20\0\0\0\0", 17}, {NULL, 0}, {"IEND", 4}};
-    unsigned char packed[64] = "IDAT";
+    } chunks[] = {{head, 17}, {NULL, 0}, {"IEND", 4}};
+    unsigned char packed[128] = "IDAT";
     uLongf length = sizeof packed - 4;
-    compress(packed + 4, &length, (const Bytef *)"\0\x12\x34", 3);
+    compress(packed + 4, &length, rows, (1 + width * depth / 8) * height);
     memset(&f, 0, sizeof f);
     add_bytes(&f, "\x89PNG\r\n\032\n", 8);
     for (size_t i = 0; i < 3; i++) {
@@ -169,7 +312,7 @@ static void write_png(void) {
         add_bytes(&f, data, size);
         add_bits(&f, crc32(0, data, (uInt)size), 4, true);
     }
-    write_file("deep.png", f.data, f.length);
+    write_file(name, f.data, f.length);
 }
 
 static void write_files(void) {
@@ -199,7 +342,7 @@ static void write_files(void) {
     add_gzip(&packed, f.data, f.length);
     write_file("b.nii.gz", packed.data, packed.length);
     write_file("a.dds", "DDS and so on", 13);
-    write_png();
+    write_grey("deep.png", 1, 1, 16, (const unsigned char[]){0, 0x12, 0x34});
 }
 
 int main(void) {
@@ -211,6 +354,10 @@ int main(void) {
     test_pixels();
     test_slices();
     test_files();
+    test_labels();
+    test_time();
+    test_numbered();
+    test_atlas();
     test_file_faults();
     remove_files();
     return tap_done();
