@@ -118,11 +118,33 @@ static void v_reference(const plr_known_context *c, float *out) {
 static void v_gradient_unit(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->grid->gradient_unit;
 }
+/* A unit that the scene gives clamps nothing. */
+static void v_gradient_most(const plr_known_context *c, float *out) {
+    out[0] = plr_node_number(c->volume->node, "gradientUnit") > 0 ? 3e38f : 1;
+}
 static void v_surface_count(const plr_known_context *c, float *out) {
     out[0] = (float)c->volume->surface_count;
 }
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
+}
+
+static void v_voxel_length(const plr_known_context *c, float *out) {
+    out[0] = (float)c->volume->voxel;
+}
+
+static double distance(const double a[3], const double b[3]) {
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/* How far the viewer is from the volume's middle, to how far he was where he first stood. */
+static void v_approach(const plr_known_context *c, float *out) {
+    plr_matrix eye;
+    plr_matrix_invert(&c->values->frame->view, &eye);
+    const double *middle = c->volume->to_world.m + 12;
+    double first = distance(c->values->view->first.to_world.m + 12, middle);
+    out[0] = first > 0 ? (float)(distance(eye.m + 12, middle) / first) : 1;
 }
 
 static void v_volume_index(const plr_known_context *c, float *out) {
@@ -199,8 +221,11 @@ static const plr_known known[] = {
     {"sampleDistance", OWNER_VOLUME, v_step},
     {"referenceLength", OWNER_VOLUME, v_reference},
     {"gradientUnit", OWNER_GRID, v_gradient_unit},
+    {"gradientMost", OWNER_VOLUME, v_gradient_most},
     {"surfaceCount", OWNER_VOLUME, v_surface_count},
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
+    {"voxelLength", OWNER_VOLUME, v_voxel_length},
+    {"approach", OWNER_VOLUME, v_approach},
     {"volumeIndex", OWNER_VOLUME, v_volume_index},
     {"eyeToShadow", OWNER_SHADOW, v_eye_to_shadow},
     {"shadowAxis", OWNER_SHADOW, v_shadow_axis},

@@ -41,6 +41,8 @@ static void field_defines(plr_kitchen *k, define_list *list, const plr_node *nod
         const char *path = plr_arena_format(arena, "%s%s", prefix, field->name);
         const plr_node *child;
         plr_texture *texture;
+        if (field->given && plr_type_kind(field->type) != PLR_NODE)
+            push_define(arena, list, plr_arena_format(arena, "GIVEN_%s", path), "1");
         switch (plr_type_kind(field->type)) {
         case PLR_BOOL:
             if (field->type == PLR_SFBOOL)

@@ -36,6 +36,7 @@ void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame)
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->UseProgram(cast->pass.built->name);
     plr_values values = {.frame = frame,
+                         .view = view,
                          .to_world = pass->volumes[cast->members[0]].to_world,
                          .volumes = pass->volumes,
                          .volume_count = pass->count,

@@ -89,9 +89,12 @@ static const char *effect_of(const char *type) {
 static bool has_own_light(const plr_node *node) {
     if (plr_node_is(node, "ToneMappedVolumeStyle") || plr_node_is(node, "StippleVolumeStyle"))
         return true;
-    return plr_node_is(node, "ShadedVolumeStyle") && plr_node_bool(node, "lighting") &&
-           plr_node_bool(node, "shadows") &&
-           strcmp(plr_node_string(node, "phaseFunction"), "Henyey-Greenstein") == 0;
+    if (!plr_node_is(node, "ShadedVolumeStyle") || !plr_node_bool(node, "lighting"))
+        return false;
+    const plr_node *material = plr_node_child(node, "material");
+    return (material && plr_node_is(material, "PhysicalMaterial")) ||
+           (plr_node_bool(node, "shadows") &&
+            strcmp(plr_node_string(node, "phaseFunction"), "Henyey-Greenstein") == 0);
 }
 
 static void add_lights(style_list *list, size_t attached) {

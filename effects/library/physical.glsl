@@ -22,3 +22,8 @@ vec3 physical_reflection(vec3 diffuse, vec3 specular, float alpha, vec4 vertex_e
     /* B.3.5 */
     return n_dot_l * ((1.0 - f) * diffuse / 3.14159265358979 + f * (v * d));
 }
+
+/* From linear light to the numbers of a display, which answers to them by their power of 2.2. */
+vec3 linear_to_display(vec3 color) {
+    return pow(max(color, 0.0), vec3(1.0 / 2.2));
+}

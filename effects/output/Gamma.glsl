@@ -9,5 +9,5 @@ void PLUG_texture_decode(inout vec4 texture_color) {
 }
 
 void PLUG_surface_output(inout vec4 fragment_color) {
-    fragment_color.rgb = pow(max(fragment_color.rgb, 0.0), vec3(1.0 / display_gamma));
+    fragment_color.rgb = linear_to_display(fragment_color.rgb);
 }

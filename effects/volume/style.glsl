@@ -51,15 +51,12 @@ uniform sampler2D transferFunction;
 vec4 style_transfer(const in vec4 value) {
 #if transferFunction_DIMENSIONS == 3
     vec3 size = vec3(textureSize(transferFunction, 0));
-    vec3 at = clamp(value.rgb, 0.0, 1.0);
+    return texture(transferFunction, (clamp(value.rgb, 0.0, 1.0) * (size - 1.0) + 0.5) / size);
+#elif voxels_COMPONENTS >= 2
+    return texture(transferFunction, function_coordinate(value.rg, textureSize(transferFunction, 0)));
 #else
-    vec2 size = vec2(textureSize(transferFunction, 0));
-#if voxels_COMPONENTS >= 2
-    vec2 at = clamp(value.rg, 0.0, 1.0);
-#else
-    vec2 at = vec2(clamp(value.r, 0.0, 1.0), 0.0);
+    vec2 at = vec2(value.r, 0.0);
+    return texture(transferFunction, function_coordinate(at, textureSize(transferFunction, 0)));
 #endif
-#endif
-    return texture(transferFunction, (at * (size - 1.0) + 0.5) / size);
 }
 #endif

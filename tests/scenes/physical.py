@@ -3,35 +3,15 @@
 
 import math
 
-from harness import Suite, dot, unit
+from harness import Suite, unit
+from physical_data import reflection
 from scenes import Row, effect, quad
 
 suite = Suite()
 
-VIEW = (0, 0, 1)
-N = (0, 0, 1)
 L = unit((-1, 1, 2))
 LIGHT = "DirectionalLight { direction 1 -1 -2 ambientIntensity .5 intensity 2 color 1 .5 .25 }\n"
 COLOR = (2, 1, 0.5)
-
-
-def reflection(base, metallic, roughness, l=L, n=N):
-    """What a white light of intensity 1 gives: B.2 and B.3 with the functions of B.3.2 and B.3.4."""
-    n_dot_l, n_dot_v = max(dot(n, l), 0), abs(dot(n, VIEW))
-    h = unit([a + b for a, b in zip(l, VIEW)])
-    n_dot_h, v_dot_h = dot(n, h), dot(VIEW, h)
-    a2 = roughness**4
-    d = a2 / (math.pi * (n_dot_h**2 * (a2 - 1) + 1) ** 2)
-    g = (2 * n_dot_l / (n_dot_l + math.sqrt(a2 + (1 - a2) * n_dot_l**2))
-         * 2 * n_dot_v / (n_dot_v + math.sqrt(a2 + (1 - a2) * n_dot_v**2)))
-    out = []
-    for c in base:
-        def mixed(f0, diffuse):
-            f = f0 + (1 - f0) * (1 - v_dot_h) ** 5
-            return (1 - f) * diffuse / math.pi + f * d * g / (4 * n_dot_l * n_dot_v)
-        # B.3.5: one formula for what lies between dielectric and metal
-        out.append(n_dot_l * mixed(0.04 * (1 - metallic) + c * metallic, c * (1 - metallic)))
-    return out
 
 
 def gamma(rgb, alpha=1.0):
@@ -40,7 +20,7 @@ def gamma(rgb, alpha=1.0):
 
 def physical(base=(0.6, 0.4, 0.2), metallic=0.0, roughness=0.5, emissive=(0, 0, 0), **more):
     rgb = [e + i * r for e, i, r in
-           zip(emissive, COLOR, reflection(base, metallic, roughness, **more))]
+           zip(emissive, COLOR, reflection(base, metallic, roughness, L, **more))]
     return gamma(rgb)
 
 
@@ -64,7 +44,7 @@ def light():
          LIGHT + quad(node(f"metallic {m} roughness {r}")), physical(metallic=m, roughness=r))
         for m, r in ((0, 0.5), (1, 0.5), (0.25, 0.75), (1, 1), (0, 0.3), (0.5, 0.2))) + (
         ("two lights add up", LIGHT + LIGHT + quad(node()),
-         gamma([2 * i * r for i, r in zip(COLOR, reflection((0.6, 0.4, 0.2), 0, 0.5))])),
+         gamma([2 * i * r for i, r in zip(COLOR, reflection((0.6, 0.4, 0.2), 0, 0.5, L))])),
         ("from behind: nothing, not even ambient light",
          LIGHT.replace("1 -1 -2", "0 0 1") + quad(node()), (0, 0, 0, 1)),
         ("tilted", LIGHT + "Transform { rotation 0 1 0 .5 children [ %s ] }" % quad(node()),
@@ -98,7 +78,7 @@ def plugs():
          physical(base=(0.2, 0.4, 0.6))),
         ("material_occlusion", LIGHT + quad(node("metallic 0 roughness .5 emissiveColor .1 .1 .1"), effect(
             "void PLUG_material_occlusion(inout vec4 c) { c.rgb *= 0.5; }")),
-         gamma([0.1 + 0.5 * i * r for i, r in zip(COLOR, reflection((0.6, 0.4, 0.2), 0, 0.5))])),
+         gamma([0.1 + 0.5 * i * r for i, r in zip(COLOR, reflection((0.6, 0.4, 0.2), 0, 0.5, L))])),
         ("material_emissive", LIGHT + quad(node(), effect(
             "void PLUG_material_emissive(inout vec3 e) { e += vec3(0.1, 0.0, 0.2); }")),
          physical(emissive=(0.1, 0, 0.2))),
