@@ -4,10 +4,10 @@
 import math
 import os
 
-from harness import Suite, dot
-from scenes import constant, front_scene, volume
-from shading_data import ramp
-from style_data import (OPACITY, SLOPE, TINT, VIEW, Styles, boundary, cartoon, composed, edge, inside,
+from harness import Suite, blinn_phong, dot, unit
+from physical_data import reflection
+from scenes import Row, constant, front_scene, volume
+from style_data import (OPACITY, SLOPE, TINT, VIEW, Styles, boundary, cartoon, composed, edge,
                         magnitude, normal_of, silhouette, tone)
 
 suite = Suite()
@@ -31,6 +31,14 @@ GREEN = ("EdgeEnhancementVolumeStyle { edgeColor 0 1 0 1 gradientThreshold .1 }"
          lambda c, a: (edge(c, FACING, (0, 1, 0), 0.1), a))
 FLAT = ("CartoonVolumeStyle { orthogonalColor .9 .4 .2 1 parallelColor .1 .3 .8 .5 colorSteps 5 }",
         lambda c, a: flat_of(a))
+LIT = ("ShadedVolumeStyle { lighting TRUE }",
+       lambda c, a: (blinn_phong(NORMAL, (-1, 2, 3), VIEW, c, (0, 0, 0), 1), a))
+SHINY = ("ShadedVolumeStyle { lighting TRUE material Material { diffuseColor .3 .5 .1 specularColor .5 .4 .3 "
+         "shininess .1 transparency .25 } }",
+         lambda c, a: (blinn_phong(NORMAL, (-1, 2, 3), VIEW, (0.3, 0.5, 0.1), (0.5, 0.4, 0.3), 12.8), 0.75 * a))
+METAL = ("ShadedVolumeStyle { lighting TRUE material PhysicalMaterial { baseColor .6 .4 .2 metallic .5 "
+         "roughness .6 } }",
+         lambda c, a: ([r ** (1 / 2.2) for r in reflection((0.6, 0.4, 0.2), 0.5, 0.6, unit((-1, 2, 3)), NORMAL)], a))
 WARM = ("ToneMappedVolumeStyle { warmColor .5 .4 .3 1 }",
         lambda c, a: (tone(NORMAL, [(-1, 2, 3)], warm=(0.5, 0.4, 0.3)), a))
 
@@ -78,6 +86,17 @@ def orders():
 
 
 @suite.case
+def lit():
+    "styles that meet light each in its own way, under the same light"
+    styles = Styles(suite)
+    for name, members in (("lit twice", (LIT, LIT)), ("warm, lit", (WARM, LIT)), ("lit, red, lit", (LIT, RED, LIT)),
+                          ("shiny, metal, warm, red", (SHINY, METAL, WARM, RED)),
+                          ("warm, metal, lit", (WARM, METAL, LIT)), ("two warm ones", (WARM, RED, WARM))):
+        add(styles, name, members)
+    styles.draw()
+
+
+@suite.case
 def many():
     "T9: three, eight and sixteen styles"
     some = (RED, EDGES, FLAT, GREEN, WARM, RED, EDGES, GREEN)
@@ -97,6 +116,20 @@ ALL = {
     "ToneMappedVolumeStyle": "",
     "OpacityMapVolumeStyle": "transferFunction PixelTexture { image 1 1 4 0xFF000080 }",
 }
+
+
+@suite.case
+def bare():
+    "T8: every style without lights, material, gradient, or enabled: drawn or not, never an error"
+    flat = constant(51, (4, 4, 4))
+    drawn, disabled = Row(suite), Row(suite)
+    for name, fields in ALL.items():
+        lighting = "lighting TRUE" if name == "ShadedVolumeStyle" else ""
+        drawn.add(volume(flat, f"{name} {{ {lighting} }}"))
+        disabled.add(volume(flat, f"{name} {{ enabled FALSE {fields} }}"))
+    for name, pixel, nothing in zip(ALL, drawn.draw(), disabled.draw()):
+        suite.check(f"{name}: numbers", all(0 <= n <= 1 for n in pixel), pixel)
+        suite.close(f"{name} disabled", nothing, (0, 0, 0, 0), 0)
 
 
 def origins(style):

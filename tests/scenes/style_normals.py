@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """The field surfaceNormals: a texture of normals that each style has for itself."""
 
-
 import math
 
 from harness import Suite, blinn_phong, dot, rotate, unit
 from scenes import constant, voxels
-from style_data import (OPACITY, SLOPE, TINT, VIEW, Styles, cartoon, composed, edge, normal_of,
-                        silhouette, tone)
-
+from style_data import (OPACITY, SLOPE, TINT, VIEW, Styles, cartoon, composed, edge, magnitude,
+                        normal_of, silhouette, tone)
+from style_data import boundary as boundary_of
 
 suite = Suite()
 
@@ -69,6 +68,15 @@ def instead():
     for texture in ("surfaceNormals NULL", two):
         for name, fields, rgb, alpha in list(cases(texture, normal_of(SLOPE)))[:3]:
             styles.add(f"{name} {texture[:19]}", style_of(name, fields, texture), rgb, alpha)
+    styles.draw()
+
+
+@suite.case
+def boundary():
+    "Boundary asks for magnitudes: normals say nothing to it"
+    styles = Styles(suite)
+    styles.add("", f"BoundaryEnhancementVolumeStyle {{ retainedOpacity .1 boundaryOpacity .8 {normals(TEXEL)} }}",
+               TINT, boundary_of(OPACITY, 0.75, 0.1, 0.8), fields=f"gradientUnit {0.75 / magnitude(SLOPE)}")
     styles.draw()
 
 
