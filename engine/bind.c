@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/bind_internal.h"
+#include "engine/transfer_function.h"
 #include "engine/light_values.h"
 
 /* A field by path: "material_diffuseColor" is the field diffuseColor of the node in material. */
@@ -60,6 +61,13 @@ static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
     bool surfaces = strcmp(symbol->name, "surfaces") == 0;
     slot->source = labels ? SLOT_LABELS : SLOT_SURFACES;
     return labels || surfaces;
+}
+
+/* Keys of transfer functions may be physical values of the voxels that the effect reads. */
+static plr_texture *texture_of(plr_kitchen *k, const plr_node *node, const plr_binding *binding) {
+    if (binding->grid && plr_transfer_function_is_physical(node))
+        return plr_transfer_function_texture(k->textures, node, binding->grid->range);
+    return plr_textures_get(k->textures, node);
 }
 
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
@@ -121,7 +129,7 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     if (builtin && slot->volume != PLR_NO_EFFECT)
         slot->use = PLR_USE_CLAMPED;
     if (element < slot->field->count && slot->field->value.nodes[element])
-        slot->texture = plr_textures_get(k->textures, slot->field->value.nodes[element]);
+        slot->texture = texture_of(k, slot->field->value.nodes[element], binding);
     return slot->texture && (int)slot->texture->kind == slot->type->components;
 }
 

@@ -38,7 +38,8 @@ bool plr_image_decode(const char *data, size_t length, plr_place place, plr_imag
 bool plr_image_from_sfimage(const plr_field *field, plr_image *image, plr_diags *diags);
 bool plr_image_from_image3d(const plr_field *field, plr_image *image, plr_diags *diags);
 /* From a texture node of two dimensions: ImageTexture (the first url that loads and is understood),
- * PixelTexture, MovieTexture (the first frame). The image has one slice. Needs the scene reader. */
+ * PixelTexture, MovieTexture (the first frame), TransferFunction. The image has one slice. Needs
+ * the scene reader. */
 bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,
                             plr_diags *diags);
 /* From a node of a cube map: ComposedCubeMapTexture, ImageCubeMapTexture. Needs the scene reader.

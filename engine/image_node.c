@@ -6,6 +6,7 @@
 
 #include "engine/image_movie.h"
 #include "engine/node_file.h"
+#include "engine/transfer_function.h"
 #include "engine/volume_internal.h"
 
 bool plr_image_is_refused(const plr_node *texture, const plr_field *image) {
@@ -51,6 +52,13 @@ static bool from_pixels(plr_scene *scene, const plr_node *texture, plr_image *im
     (void)scene;
     const plr_field *pixels = plr_node_field(texture, "image");
     return !plr_image_is_refused(texture, pixels) && plr_image_from_sfimage(pixels, image, diags);
+}
+
+/* Physical keys without a volume count from 0 to 1. */
+static bool from_knots(plr_scene *scene, const plr_node *texture, plr_image *image,
+                       plr_diags *diags) {
+    (void)scene;
+    return plr_transfer_function_bake(texture, (const double[]){0, 1}, image, diags);
 }
 
 static bool from_urls(plr_scene *scene, const plr_node *texture, plr_image *image,
@@ -121,6 +129,7 @@ static const struct {
     {"ImageTexture", from_urls},
     {"PixelTexture", from_pixels},
     {"MovieTexture", from_urls},
+    {"TransferFunction", from_knots},
 };
 
 bool plr_image_from_texture(plr_scene *scene, const plr_node *texture, plr_image *image,

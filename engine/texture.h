@@ -44,16 +44,18 @@ typedef struct plr_texture {
     /* No image: the engine draws into it, `width` by `height` texels a face. Colours are RGBA16F;
      * `depth`: the values are depths, which shadow kinds compare and others read. */
     bool generated, depth;
-    uint32_t width, height; /* of the finest level */
-    plr_image image;        /* freed by the upload */
-    size_t bytes;           /* that GL needs for it, without mipmaps made by GL */
-    GLuint name;            /* 0: not uploaded */
-    GLuint samplers[2];     /* of the node, by use; 0: not made yet */
-    bool mipmapped;         /* for PLR_USE_SURFACE */
-    bool stale_mipmaps;     /* they are made when the texture is bound with them */
-    uint64_t revision;      /* of its nodes, when it was loaded */
-    double steepness;       /* of voxels: the gradient that counts as 1; 0: not asked for yet */
-    bool kept;              /* made by the engine, and wanted again when the scene has changed */
+    uint32_t width, height;   /* of the finest level */
+    plr_image image;          /* freed by the upload */
+    size_t bytes;             /* that GL needs for it, without mipmaps made by GL */
+    GLuint name;              /* 0: not uploaded */
+    GLuint samplers[2];       /* of the node, by use; 0: not made yet */
+    bool mipmapped;           /* for PLR_USE_SURFACE */
+    bool stale_mipmaps;       /* they are made when the texture is bound with them */
+    uint64_t revision;        /* of its nodes, when it was loaded */
+    double steepness;         /* of voxels: the gradient that counts as 1; 0: not asked for yet */
+    bool kept;                /* made by the engine, and wanted again when the scene has changed */
+    const plr_node *function; /* a TransferFunction with physical keys, baked for voxels of: */
+    double range[2];
 } plr_texture;
 
 typedef struct plr_textures {

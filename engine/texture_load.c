@@ -118,6 +118,7 @@ static const struct loader {
     {"ImageTexture", PLR_TEXTURE_2D, false, load_image},
     {"PixelTexture", PLR_TEXTURE_2D, false, load_image},
     {"MovieTexture", PLR_TEXTURE_2D, false, load_image},
+    {"TransferFunction", PLR_TEXTURE_2D, false, load_image},
     {"ComposedCubeMapTexture", PLR_TEXTURE_CUBE, false, load_cube},
     {"ImageCubeMapTexture", PLR_TEXTURE_CUBE, false, load_cube},
     {"ImageTexture3D", PLR_TEXTURE_3D, false, load_volume},
