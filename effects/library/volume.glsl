@@ -1,5 +1,36 @@
 /* What the effects of volumes share. */
 
+/* What is known of one sample. Members that nothing reads are not in the program. */
+struct VolumeSample {
+    vec4 value;         /* voxel in [0,1]; missing components 0, the fourth 1 */
+#if READS(position)
+    vec3 position;      /* texture coordinates of the volume, [0,1] */
+#endif
+#if READS(position_eye)
+    vec3 position_eye;
+#endif
+#if READS(normal_eye)
+    vec3 normal_eye;    /* unit, against the gradient; zero where that vanishes */
+#endif
+#if READS(gradient)
+    float gradient;     /* magnitude, value per unit length in the volume's own coordinates */
+#endif
+#if READS(step_length)
+    float step_length;  /* own coordinates of the volume; eye space in a mix */
+#endif
+#if READS(segment)
+    int segment;
+#endif
+#if READS(surface)
+    int surface;        /* of equal value, by its number; -1 where there is none */
+#endif
+#if READS(volume)
+    int volume;         /* -1 in a mix of several */
+#endif
+};
+
+const float NOWHERE = 3.0e38; /* along a ray */
+
 /* To [0,1]; what is no number becomes 0. */
 vec4 clamped(const in vec4 color) {
     return mix(vec4(0.0), min(color, vec4(1.0)), greaterThan(color, vec4(0.0)));

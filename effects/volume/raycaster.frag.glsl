@@ -3,40 +3,17 @@
  * step to the volumes (Volume.glsl) and to the compositing effect (Composite.glsl). All distances
  * along a ray are in eye space: 0 at the eye, or at the eye's plane where the projection is parallel. */
 
-/* What is known of one sample. Members that nothing reads are not in the program. */
-struct VolumeSample {
-    vec4 value;         /* voxel in [0,1]; missing components 0, the fourth 1 */
-#if READS(position)
-    vec3 position;      /* texture coordinates of the volume, [0,1] */
-#endif
-#if READS(position_eye)
-    vec3 position_eye;
-#endif
-#if READS(normal_eye)
-    vec3 normal_eye;    /* unit, against the gradient; zero where that vanishes */
-#endif
-#if READS(gradient)
-    float gradient;     /* magnitude, value per unit length in the volume's own coordinates */
-#endif
-#if READS(step_length)
-    float step_length;  /* own coordinates of the volume; eye space in a mix */
-#endif
-#if READS(segment)
-    int segment;
-#endif
-#if READS(surface)
-    int surface;        /* of equal value, by its number; -1 where there is none */
-#endif
-#if READS(volume)
-    int volume;         /* -1 in a mix of several */
-#endif
-};
-
 uniform vec4 viewport; /* x, y, width, height in pixels */
 #if HAS_OPAQUE
 uniform sampler2D opaqueDepth;
 uniform vec2 depthToClip;  /* scale and shift from the depth buffer to clip space */
 uniform float emptyDepth;  /* of pixels where nothing opaque is */
+#endif
+#if HAS_PARTS
+/* Translucent surfaces divide the ray: this is the part behind one of them and before the next. */
+uniform sampler2D partStart;
+uniform sampler2D partEnd;
+uniform int hasPartStart;
 #endif
 #if HAS_CUT
 uniform vec2 viewpointCut; /* near and far distance that the viewpoint asks for, as planes */
@@ -49,7 +26,6 @@ out vec4 plugray_FragColor;
 
 /* PLUG-DECLARATIONS */
 
-const float NOWHERE = 3.0e38;
 #if HAS_EVENTS
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
@@ -59,16 +35,74 @@ int step_count(float whole, float step_length) {
     return int(ceil(min(whole / step_length - 1.0e-4, 1.0e6)));
 }
 
+#if HAS_PARTS
+float part_start = 0.0;
+float part_end = NOWHERE; /* where it is not the end of the ray */
+#endif
+#if EARLY_END
+/* Whether nothing behind can be seen any more; of a ray that picks, whether something is seen. */
+bool is_ended(vec4 accumulated) {
+#if PICKS
+    return accumulated.a >= 1.0 / 255.0;
+#else
+    return 1.0 - accumulated.a < transparencyLeft;
+#endif
+}
+#endif
+
+#if WRITES_DEPTH
+float written_end = -NOWHERE; /* where the ray leaves the volumes that write depth */
+#endif
+#if PICKS
+int met_volume = -1; /* what the ray has met last */
+int met_surface = -1;
+float met_depth;
+vec2 picked;
+#endif
+#if WRITES_DEPTH || PICKS
+float ended_at = NOWHERE;
+
+/* Notes where the ray ends. */
+void note_end(vec4 accumulated, float t) {
+#if EARLY_END
+    if (ended_at < NOWHERE || !is_ended(accumulated))
+        return;
+    ended_at = t;
+#if PICKS
+    picked = vec2(met_volume, met_surface);
+#endif
+#endif
+}
+#endif
+
 #if HAS_OPAQUE
-/* Distance along the ray of what the depth buffer holds at this pixel. */
-float opaque_distance(vec3 direction_eye) {
-    float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy - viewport.xy), 0).r;
+ivec2 depth_texel() {
+#if PICKS
+    return ivec2(gl_FragCoord.xy); /* of a picture there is this pixel alone */
+#else
+    return ivec2(gl_FragCoord.xy - viewport.xy);
+#endif
+}
+
+/* Distance along the ray of what a depth buffer holds. */
+float depth_distance(float depth, vec3 direction_eye) {
     if (depth == emptyDepth)
         return NOWHERE;
     float ndc = depth * depthToClip.x + depthToClip.y;
     mat4 p = castle_ProjectionMatrix;
     float z = p[2][3] != 0.0 ? -p[3][2] / (ndc + p[2][2]) : (ndc - p[3][2]) / p[2][2];
     return z / direction_eye.z;
+}
+#endif
+
+#if WRITES_DEPTH
+/* What a depth buffer holds of a place of the ray, before what stands there already. */
+float distance_depth(float t, vec3 direction_eye, float before) {
+    mat4 p = castle_ProjectionMatrix;
+    float z = t * direction_eye.z;
+    float ndc = (p[2][2] * z + p[3][2]) / (p[2][3] * z + p[3][3]);
+    float depth = clamp((ndc - depthToClip.y) / depthToClip.x, 0.0, 1.0);
+    return emptyDepth == 0.0 ? max(depth, before) : min(depth, before);
 }
 #endif
 
@@ -90,7 +124,19 @@ void main() {
     limit = viewpointCut.y / -direction_eye.z;
 #endif
 #if HAS_OPAQUE
-    limit = min(limit, opaque_distance(direction_eye));
+    float opaque = texelFetch(opaqueDepth, depth_texel(), 0).r;
+    limit = min(limit, depth_distance(opaque, direction_eye));
+#endif
+#if HAS_PARTS
+    float part_depth = texelFetch(partEnd, depth_texel(), 0).r;
+    if (part_depth != opaque)
+        part_end = depth_distance(part_depth, direction_eye);
+    if (hasPartStart != 0) {
+        float start_depth = texelFetch(partStart, depth_texel(), 0).r;
+        if (start_depth == part_depth)
+            discard; /* no surface here */
+        part_start = depth_distance(start_depth, direction_eye);
+    }
 #endif
     /* PLUG: volume_begin (origin_eye, direction_eye, start, limit) */
 
@@ -129,6 +175,10 @@ void main() {
                 float event = NOWHERE;
                 /* PLUG: volume_event (event) */
                 float span = min(event, to) - from;
+#elif HAS_PARTS
+            /* steps stay where they are along the whole ray; those at its ends are shortened */
+            from = max(from, part_start);
+            float span = (i == steps - 1 ? t_next : t + float(i + 1) * step_length) - from;
 #else
             /* the last step is shortened: lengths add up to the part */
             float span = i == steps - 1 ? t_next - from : step_length;
@@ -142,6 +192,9 @@ void main() {
             if (span > 0.0) {
 #endif
             VolumeMix mixed = VolumeMix(vec3(0.0), 0.0, vec3(0.0), 0.0);
+#if PICKS
+            met_depth = -1.0;
+#endif
             /* PLUG: volume_mix (mixed, t_middle, span, origin_eye, direction_eye) */
             color = volume_mix_color(mixed);
 #if READS(position_eye)
@@ -161,6 +214,9 @@ void main() {
             if (depth >= NOWHERE && accumulated.a > 0.0)
                 depth = t_middle;
 #endif
+#if WRITES_DEPTH || PICKS
+            note_end(accumulated, t_middle);
+#endif
 #if MIXES && HAS_EVENTS
             }
 #endif
@@ -177,25 +233,37 @@ void main() {
                 if (depth >= NOWHERE && accumulated.a > 0.0)
                     depth = event;
 #endif
+#if WRITES_DEPTH || PICKS
+                note_end(accumulated, event);
+#endif
                 from = max(from, event);
 #if EARLY_END
-                if (1.0 - accumulated.a < transparencyLeft)
+                if (is_ended(accumulated))
                     break;
 #endif
             }
 #endif
 #if EARLY_END
-            if (1.0 - accumulated.a < transparencyLeft)
+            if (is_ended(accumulated))
                 break;
 #endif
         }
 #if MIXES
 #if EARLY_END
-        ended = 1.0 - accumulated.a < transparencyLeft;
+        ended = is_ended(accumulated);
 #endif
         t = t_next;
     }
 #endif
     /* PLUG: volume_ray_end (accumulated, depth) */
+#if PICKS
+    plugray_FragColor = vec4(ended_at, picked, ended_at < NOWHERE);
+#else
     plugray_FragColor = accumulated;
+#endif
+#if WRITES_DEPTH
+    gl_FragDepth = opaque;
+    if (accumulated.a > 0.0 && written_end >= 0.0)
+        gl_FragDepth = distance_depth(min(ended_at, written_end), direction_eye, opaque);
+#endif
 }
