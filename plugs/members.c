@@ -65,6 +65,23 @@ static uint32_t line_at(const plr_composed *stage, uint32_t line, size_t offset)
     return line;
 }
 
+/* The arguments of a socket call are written by who offers the plug, not by whose function it is.
+ */
+static void map_use(const plr_program *program, plr_stage stage, uint32_t line, size_t offset,
+                    plr_mapped *at) {
+    const plr_composed *composed = &program->stages[stage];
+    const plr_written_call *call = plr_call_at(composed, offset);
+    plr_program_map(program, stage, line, (uint32_t)(offset - composed->lines[line - 1]) + 1, at);
+    if (!call)
+        return;
+    const plr_unit *unit = call->socket->unit;
+    at->effect =
+        call->socket->effect < program->linking.effect_count ? call->socket->effect : PLR_NO_EFFECT;
+    at->source = unit->reading->source;
+    at->offset = call->socket->plug->offset;
+    at->place = at->plug_place;
+}
+
 size_t plr_program_member_uses(const plr_program *program, plr_stage stage, const char *name,
                                plr_member_use *uses, size_t capacity) {
     if ((unsigned)stage >= PLR_STAGE_COUNT || !program->stages[stage].text)
@@ -89,8 +106,7 @@ size_t plr_program_member_uses(const plr_program *program, plr_stage stage, cons
             line = line_at(composed, line, word);
             if (count < capacity) {
                 uses[count].written = is_written(text, at, end);
-                plr_program_map(program, stage, line,
-                                (uint32_t)(word - composed->lines[line - 1]) + 1, &uses[count].at);
+                map_use(program, stage, line, word, &uses[count].at);
             }
             count++;
         }

@@ -80,6 +80,12 @@ static const plr_run *run_at(const plr_composed *stage, size_t offset) {
     return low ? &stage->runs[low - 1] : NULL;
 }
 
+const plr_written_call *plr_call_at(const plr_composed *stage, size_t offset) {
+    const plr_run *run = run_at(stage, offset);
+    bool call = run && run->origin != PLR_RUN_OWN && run->origin & PLR_RUN_CALL;
+    return call ? &stage->calls[run->origin & ~PLR_RUN_CALL] : NULL;
+}
+
 static void map_call(const plr_written_call *call, plr_mapped *mapped) {
     const plr_function *function = call->function;
     const plr_unit *unit = function->node->unit;

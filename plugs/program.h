@@ -25,6 +25,9 @@ struct plr_program {
     PLR_LIST(plr_symbol) symbols;
 };
 
+/* The socket call that stands at an offset of the text; NULL: something else does. */
+const plr_written_call *plr_call_at(const plr_composed *stage, size_t offset);
+
 /* symbols.c */
 void plr_list_symbols(plr_program *program);
 

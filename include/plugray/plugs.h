@@ -249,7 +249,8 @@ PLR_API size_t plr_program_calls(const plr_program *program, plr_call_info *call
 
 /* A place in the program where a member of a struct is named. */
 typedef struct plr_member_use {
-    plr_mapped at; /* of the name behind the dot */
+    plr_mapped at; /* of the name behind the dot; of an argument at a plug: the plug, and the effect
+                      that offers it */
     bool written;  /* the member, or a part of it, is assigned to; else its value is used */
 } plr_member_use;
 

@@ -23,7 +23,7 @@ static void check_uses(const char *name, const char *expected) {
     "out vec4 o;\n"                                                                                \
     "void main() {\n"                                                                              \
     "    Sample s;\n"                                                                              \
-    "    s.value = vec4(1.5, 2., .5e1, 1.e0);\n"                                                           \
+    "    s.value = vec4(1.5, 2., .5e1, 1.e0);\n"                                                   \
     "    s.normal = vec3(0.0);\n"                                                                  \
     "    vec4 c = s.value;\n"                                                                      \
     "    /* PLUG: shade (c, s) */\n"                                                               \
@@ -54,6 +54,18 @@ static void test_uses(void) {
               0);
 }
 
+/* Arguments at a plug are read by who offers it. */
+static void test_arguments(void) {
+    begin();
+    base(BASE);
+    effect("void PLUG_shade(inout vec4 c, const in Sample s) {\n"
+           "    /* PLUG: light (c, s.normal) */\n"
+           "}\n");
+    effect("void PLUG_light(inout vec4 c, vec3 normal) { c.rgb *= normal; }\n");
+    effect("void PLUG_light(inout vec4 c, vec3 normal) { c.rgb += normal; }\n");
+    check_uses("normal", "-1@7:7 w\n0@2:5 r\n0@2:5 r\n");
+}
+
 /* What is left out reads nothing. */
 static void test_unreached(void) {
     begin();
@@ -65,6 +77,7 @@ static void test_unreached(void) {
 
 int main(void) {
     test_uses();
+    test_arguments();
     test_unreached();
     return finish();
 }

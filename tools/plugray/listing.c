@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "tools/plugray/json.h"
 #include "tools/plugray/report.h"
 
 const char *effect_label(const plr_effect *effects, size_t index, char buffer[32]) {
@@ -24,6 +25,12 @@ void print_place(plr_place place) {
     }
     print_plain(place.file);
     printf(":%u:%u", place.line, place.column);
+}
+
+void write_place(plr_place place) {
+    fputs("{\"file\": ", stdout);
+    json_string(stdout, place.file);
+    printf(", \"line\": %u, \"column\": %u}", place.line, place.column);
 }
 
 void print_plug(const plr_program *program, size_t index, const plr_effect *effects) {

@@ -12,6 +12,8 @@ const char *effect_label(const plr_effect *effects, size_t index, char buffer[32
 
 /* FILE:LINE:COLUMN, or - for none, on standard output. */
 void print_place(plr_place place);
+/* {"file": ..., "line": ..., "column": ...}, on standard output. */
+void write_place(plr_place place);
 /* Text from files: what could steer a terminal becomes blank. */
 void print_plain(const char *text);
 /* A plug: its name, argument lists and stage; then who offers it and whose functions are called. */

@@ -104,12 +104,6 @@ void print_chains(plr_view *view) {
 
 /* ---- JSON ---- */
 
-static void write_place(plr_place place) {
-    fputs("{\"file\": ", stdout);
-    json_string(stdout, place.file);
-    printf(", \"line\": %u, \"column\": %u}", place.line, place.column);
-}
-
 static void write_call(const chain *c, const plr_call_info *call) {
     char buffer[32];
     const plr_plug_info *plug = plr_program_plug(c->program, call->plug);
