@@ -5,6 +5,7 @@
 
 #include "engine/dialect.h"
 #include "engine/frame.h"
+#include "engine/ignored.h"
 #include "engine/state.h"
 #include "engine/targets.h"
 #include "engine/unreached.h"
@@ -55,8 +56,10 @@ bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *di
         return false;
     }
     view->viewpoint = plr_flat_bound(&view->flat, view->viewpoint);
-    if (!view->made)
+    if (!view->made) {
         plr_dialect_report(view->scene, &view->flat, view->asked_dialect, diags);
+        plr_ignored_report(&view->arena, view->scene, &view->flat, diags);
+    }
     plr_world_prepare(view, diags);
     plr_targets_prepare(view, diags);
     plr_unreached_report(&view->composer);

@@ -47,6 +47,24 @@ def versions():
 
 
 @suite.case
+def without_effect():
+    "fields of other browsers are read; those that change nothing are named once, unless they hold their default"
+    volumes = volume(GREY, "OpacityMapVolumeStyle { type \"preintegrated\" opacityFactor 3 lightFactor 2 }", fields=(
+        "sliceThickness 1 1 2 swapped TRUE renderSettings [ Group { } ] rayStep 0.1 renderer Group { } "
+        "filterType \"LINEAR\" allowViewpointInside FALSE"))
+    result = suite.render(front_scene(volumes, volumes), "--probe", "0,0", size="1x1")
+    suite.equal("one warning each", [(m[3], m[4].split("'")[1], m[5]) for m in result.messages()], [
+        ("warning", name, "not-drawn") for name in (
+            "sliceThickness", "swapped", "renderSettings", "rayStep", "renderer", "filterType",
+            "allowViewpointInside", "type", "opacityFactor", "lightFactor")])
+    plain = volume(GREY, "ComposedVolumeStyle { ordered TRUE renderStyle OpacityMapVolumeStyle { type \"simple\" } }",
+                   fields="swapped FALSE allowViewpointInside TRUE filterType \"\"")
+    segments = f"SegmentedVolumeData {{ numberOfMaxSegments 7 voxels {GREY} }}\n"
+    result = suite.render(front_scene(plain, segments), "--probe", "0,0", size="1x1")
+    suite.equal("none", result.messages(), [])
+
+
+@suite.case
 def told_once():
     "the line is not repeated while the picture changes, nor where nothing is a volume"
     text = front_scene(
