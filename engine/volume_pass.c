@@ -114,7 +114,8 @@ static void split_layers(plr_view *view, const bool *layers, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
     plr_cast *together = &pass->casts[0];
     size_t kept = 0;
-    for (size_t i = 0; i < pass->count; i++) {
+    for (size_t m = 0; m < together->count; m++) {
+        size_t i = together->members[m];
         if (!layers[i]) {
             together->members[kept++] = i;
             continue;
@@ -190,6 +191,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
     plr_cast *together = add_cast(view);
     for (size_t i = 0; i < pass->count; i++)
         together->members[together->count++] = i;
+    plr_volume_order(view, together->members, together->count);
     plr_cast_build_recipe(view, together, true, NULL);
     ray_use use = find_ray_use(view, together);
     if (pass->count > 1)

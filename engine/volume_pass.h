@@ -29,6 +29,11 @@ bool plr_volume_has_styles(const plr_volume_state *state);
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
                            const plr_scope *lights, plr_diags *diags);
 
+/* ---- Order (volume_order.c) ---- */
+
+/* Sorts volumes by what they are, whatever the order in which the scene has them. */
+void plr_volume_order(plr_view *view, size_t *members, size_t count);
+
 /* ---- Programs (volume_recipe.c) ---- */
 
 void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);

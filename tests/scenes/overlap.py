@@ -4,7 +4,7 @@
 import math
 
 from harness import Suite, over, premultiplied
-from scenes import constant, effect, front_scene, quad, scene, volume
+from scenes import constant, effect, front_scene, quad, scene, volume, voxels
 
 suite = Suite()
 
@@ -209,6 +209,19 @@ def lit_mixture():
     got = suite.middle(front_scene("DirectionalLight { direction 0 0 1 }\n",
                                    lit, Fog(0x00FF00FF).text))
     suite.close("opaque samples are averaged, lit and unlit", got, (0.25, 0.625, 0.5, 1), 1e-3)
+
+
+@suite.case
+def to_the_last_bit():
+    "the order in which volumes are listed changes no bit of the picture"
+    parts = [f"Transform {{ translation {0.1 * i} {0.07 * i * i} {-0.05 * i} rotation 1 {i} 0 {0.3 * i} "
+             "children " + volume(voxels(1, (3, 3, 3), [(i * 71 + 37 * k) % 256 for k in range(27)]))
+             + "}\n" for i in range(5)]
+    first = suite.picture(front_scene(*parts), "--size", "24x24")
+    for order in ((4, 3, 2, 1, 0), (2, 0, 4, 1, 3)):
+        other = suite.picture(front_scene(*(parts[i] for i in order)), "--size", "24x24")
+        suite.check(str(order), first.values == other.values, "pictures differ")
+    suite.check("something is drawn", max(first.values) > 0.1, max(first.values))
 
 
 @suite.case
