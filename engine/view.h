@@ -35,8 +35,9 @@ typedef struct plr_kept_volume {
     const plr_node *node; /* that has them in a field: VolumeData, BlendedVolumeStyle */
     uint64_t revision;    /* of its nodes, when they were read */
     plr_grid grid;
-    plr_texture *labels; /* or NULL */
-    bool placed;         /* the file says where it is and how large: */
+    uint32_t full_size[3]; /* of the data, before they were brought down to fit */
+    plr_texture *labels;   /* or NULL */
+    bool placed;           /* the file says where it is and how large: */
     plr_matrix place;
     double dimensions[3];
     uint64_t hash; /* of the voxels */
@@ -187,7 +188,8 @@ void plr_background_prepare(plr_view *view, plr_background *background);
 void plr_surfaces_prepare(plr_view *view, plr_diags *diags);
 /* Locations, once textures are loaded and GL is there. */
 void plr_pass_find(plr_view *view, plr_pass *pass);
-/* The fog that a leaf is in: the nearest LocalFog, else the Fog of the scene; its node may be NULL. */
+/* The fog that a leaf is in: the nearest LocalFog, else the Fog of the scene; its node may be NULL.
+ */
 const plr_placed *plr_pass_fog(const plr_view *view, const plr_scope *scope);
 /* The lights that reach a leaf, as built-in effects. */
 void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,

@@ -92,6 +92,29 @@ bool plr_volume_to_image(const plr_volume *volume, const double range[2], plr_im
 bool plr_volume_to_labels(const plr_volume *volume, uint32_t component, plr_place place,
                           plr_image *image, plr_diags *diags);
 
+/* The range that a volume node asks for, in physical units: `valueRange`, else `windowCenter` and
+ * `windowWidth`; 0, 0: as the data say. */
+void plr_volume_node_range(const plr_node *node, double range[2]);
+
+/* By how much (1, 2, 4, ...) an image's sides must come down so that none has more than `max_side`
+ * texels, and a texture of it not more than `max_bytes` bytes; 0: no limit. The latter along all
+ * axes alike. */
+void plr_image_reduction(const plr_image *image, uint32_t max_side, size_t max_bytes,
+                         uint32_t factors[3]);
+/* Makes sides smaller by these factors, rounded up, over the same box: by averaging what each new
+ * voxel covers; of labels (PLR_UINT types) by the one that most voxels have. False without memory.
+ */
+bool plr_image_reduce(plr_image *image, const uint32_t factors[3]);
+
+/* Reads the levels of VolumeData.voxelLevels (mipmaps that the scene gives: the further nodes of
+ * `voxels` in the dialect of 2005) and warns of those that are not half as large as the one before.
+ */
+void plr_volume_check_levels(plr_scene *scene, const plr_node *node, const plr_volume *finest,
+                             plr_diags *diags);
+/* Which of `count` levels has voxels as wide as the distance between samples, but not wider;
+ * `voxels` is that distance in voxels of level 0, the finest. */
+size_t plr_volume_fitting_level(size_t count, double voxels);
+
 /* The 99th percentile of the non-zero magnitudes of the gradient at voxel centres of component mean
  * (L, or the mean of RGB), in value per unit length, central differences clamped at the border;
  * `dimensions` is the size of the volume in its own coordinates. 1 if all are zero. */

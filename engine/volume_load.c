@@ -13,6 +13,9 @@ enum {
     DATA_DEPTH = 2 /* of nodes that voxels are made of */
 };
 
+/* Of one volume in a texture: what exceeds it is brought down. */
+#define PLR_VOLUME_MOST_BYTES ((size_t)4 << 30)
+
 /* Fields whose nodes hold data; of voxels the first that is given counts. */
 static const char *const data_fields[] = {"voxels", "segmentedVoxels", "segmentIdentifiers"};
 
@@ -63,16 +66,9 @@ static void drop_last_component(plr_image *image) {
     image->components--;
 }
 
-static void node_range(const plr_node *owner, double range[2]) {
-    float given[2] = {0, 0};
-    plr_node_numbers(owner, "valueRange", given, 2);
-    range[0] = given[0];
-    range[1] = given[1];
-}
-
 static bool read_volume(reading *r, const plr_volume *volume) {
     double range[2];
-    node_range(r->owner, range);
+    plr_volume_node_range(r->owner, range);
     bool given = range[0] != range[1];
     r->kept->grid.range[0] = given ? range[0] : volume->minimum;
     r->kept->grid.range[1] = given ? range[1] : volume->maximum;
@@ -108,6 +104,8 @@ static bool read_voxels(reading *r) {
     plr_volume volume = {0}; /* a volume without voxels is empty space */
     bool fine = node && plr_volume_from_node(r->view->scene, node, &volume, r->diags) &&
                 read_volume(r, &volume);
+    if (fine && r->diags)
+        plr_volume_check_levels(r->view->scene, r->owner, &volume, r->diags);
     plr_volume_free(&volume);
     return fine;
 }
@@ -130,6 +128,26 @@ static void read_labels(reading *r) {
     else
         plr_volume_to_labels(&volume, 0, plr_node_place(node), &r->labels, r->diags);
     plr_volume_free(&volume);
+}
+
+/* Brings down what the machine cannot hold. */
+static bool fit(reading *r) {
+    const plr_gl *gl = r->view->textures.gl;
+    GLint side = 0;
+    uint32_t by[3];
+    if (gl)
+        gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &side);
+    const uint32_t full[3] = {r->voxels.width, r->voxels.height, r->voxels.depth};
+    memcpy(r->kept->full_size, full, sizeof full);
+    plr_image_reduction(&r->voxels, side > 0 ? (uint32_t)side : 0, PLR_VOLUME_MOST_BYTES, by);
+    if (by[0] == 1 && by[1] == 1 && by[2] == 1)
+        return true;
+    plr_diags_add_as(r->diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(r->owner),
+                     "%u x %u x %u voxels are more than GL takes here; they are brought down by "
+                     "%u x %u x %u",
+                     full[0], full[1], full[2], by[0], by[1], by[2]);
+    return plr_image_reduce(&r->voxels, by) &&
+           (!r->labels.samples || plr_image_reduce(&r->labels, by));
 }
 
 /* One voxel in place of data that cannot be had, so that the effects on it are checked all the
@@ -194,6 +212,13 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
         make_placeholder(&r);
     }
     read_labels(&r);
+    if (!fit(&r)) {
+        plr_image_free(&r.voxels);
+        plr_image_free(&r.labels);
+        plr_diags_add(diags, PLR_CODE_NO_MEMORY, plr_node_place(owner),
+                      "there is not enough memory");
+        return NULL;
+    }
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
@@ -210,15 +235,16 @@ void plr_volume_move(plr_volume_state *state, const plr_leaf *leaf) {
 
 /* Sizes, reference length and step; ISO/IEC 19775-1 V4 41.2 and the project's numbers for voxels.
  */
-static void measure(const plr_view *view, plr_volume_state *state) {
-    double cell = 1;
+static void measure(const plr_view *view, plr_volume_state *state, const uint32_t full_size[3]) {
+    double cell = 1, full = 1; /* brought down, the voxels keep their opacity */
     for (int i = 0; i < 3; i++) {
         state->dimensions[i] = state->grid->dimensions[i];
         cell *= state->dimensions[i] / state->grid->size[i];
+        full *= state->dimensions[i] / full_size[i];
     }
     state->voxel = cbrt(cell);
     double unit = plr_node_number(state->node, "opacityUnitDistance");
-    state->reference = unit > 0 ? unit : state->voxel;
+    state->reference = unit > 0 ? unit : cbrt(full);
     state->step = (view->desc.step > 0 ? view->desc.step : 0.5) * state->voxel;
 }
 
@@ -241,7 +267,7 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
     state->file_place = kept->place;
     state->hash = kept->hash;
     plr_volume_move(state, leaf);
-    measure(view, state);
+    measure(view, state, kept->full_size);
     return state->voxel > 0;
 }
 
@@ -249,7 +275,7 @@ double plr_volume_steepness(plr_view *view, const plr_grid *grid) {
     plr_kept_volume unused = {.node = grid->node};
     reading again = {.view = view, .owner = grid->node, .kept = &unused};
     const plr_image *image = &grid->voxels->image;
-    if (!image->samples && read_voxels(&again))
+    if (!image->samples && read_voxels(&again) && fit(&again))
         image = &again.voxels;
     double strong = image->samples ? plr_image_gradient_percentile(image, grid->dimensions) : 0;
     plr_image_free(&again.voxels);
