@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """The proposal of 2005 and the final standard: what selects a dialect, what differs, OctTree."""
 
-from harness import Suite, opacity, premultiplied
+from harness import Suite, dot, opacity, premultiplied
 from scenes import constant, effect, front_scene, quad, scene, volume
+from style_data import OPACITY, SLOPE, TINT, VIEW, Styles, boundary, magnitude, normal_of, silhouette
 
 suite = Suite()
 
@@ -44,6 +45,37 @@ def versions():
     for version in ("3.0", "3.1", "3.2", "3.3", "4.0"):
         text = front_scene(volume(GREY)).replace("V4.0", f"V{version}")
         suite.close(version, suite.middle(text), FINAL_GREY)
+
+
+@suite.case
+def styles_of_dialects():
+    "fields that are not given are the dialect's; a given one stands in both"
+    facing, change = dot(normal_of(SLOPE), VIEW), magnitude(SLOPE)
+    boundaries = {
+        "": (boundary(OPACITY, change), boundary(OPACITY, change, 1, 0, 1)),
+        "retainedOpacity 0.3": (boundary(OPACITY, change, 0.3), boundary(OPACITY, change, 0.3, 0, 1)),
+        "boundaryOpacity 0.7": (boundary(OPACITY, change, 0.2, 0.7), boundary(OPACITY, change, 1, 0.7, 1)),
+        "boundaryOpacity 1 opacityFactor 3 retainedOpacity 0": (boundary(OPACITY, change, 0, 1, 3),) * 2,
+    }
+    silhouettes = {
+        "": (silhouette(OPACITY, facing), silhouette(OPACITY, facing, 0, 1, 0.5)),
+        "silhouetteFactor 2": (silhouette(OPACITY, facing), silhouette(OPACITY, facing, 0, 1, 2)),
+        "silhouetteSharpness 3": (silhouette(OPACITY, facing, 1, 0, 3), silhouette(OPACITY, facing, 0, 1, 3)),
+        "silhouetteFactor 2 silhouetteBoundaryOpacity 0.5": (
+            silhouette(OPACITY, facing, 1, 0.5, 0.5), silhouette(OPACITY, facing, 0, 0.5, 2)),
+        "silhouetteRetainedOpacity 0.25 silhouetteBoundaryOpacity 0.5 silhouetteSharpness 2": (
+            silhouette(OPACITY, facing, 0.25, 0.5, 2),) * 2,
+    }
+    for i, dialect in enumerate(("final", "2005")):
+        styles = Styles(suite)
+        for kind, rows in (("BoundaryEnhancementVolumeStyle", boundaries),
+                           ("SilhouetteEnhancementVolumeStyle", silhouettes)):
+            for fields, expected in rows.items():
+                styles.add(f"{dialect}: {kind} {fields}", f"{kind} {{ {fields} }}", TINT, expected[i],
+                           fields="gradientUnit 1")
+        pixels = styles.row.draw("--dialect", dialect, files=styles.files)
+        for pixel, (name, expected) in zip(pixels, styles.expected):
+            suite.close(name, pixel, expected)
 
 
 @suite.case
