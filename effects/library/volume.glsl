@@ -48,3 +48,20 @@ vec3 normal_of_gradient(const in vec3 gradient, const in mat3 eye_to_local) {
 vec2 function_coordinate(const in vec2 at, const in ivec2 size) {
     return (clamp(at, 0.0, 1.0) * (vec2(size) - 1.0) + 0.5) / vec2(size);
 }
+
+/* How many steps a part of the ray takes; a remainder that is only rounding is no step. */
+int step_count(float whole, float step_length) {
+    return int(ceil(min(whole / step_length - 1.0e-4, 1.0e6)));
+}
+
+/* Where a ray enters and leaves a box, in lengths of its direction; where it misses the box it leaves
+ * before it enters. */
+vec2 cross_box(const in vec3 low, const in vec3 high, const in vec3 origin, const in vec3 direction) {
+    if (any(greaterThan(low, high)))
+        return vec2(0.0, -NOWHERE);
+    /* a component of 0 stays on its side of both faces: 1e-30 reaches neither in any picture */
+    vec3 d = mix(direction, vec3(1.0e-30), equal(direction, vec3(0.0)));
+    vec3 to_low = (low - origin) / d, to_high = (high - origin) / d;
+    vec3 near = min(to_low, to_high), far = max(to_low, to_high);
+    return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
+}

@@ -7,9 +7,6 @@ uniform float referenceLength;  /* an opacity means "after this length", own coo
 uniform int volumeIndex;
 uniform vec3 cropMin = vec3(0.0); /* of the box of texture coordinates */
 uniform vec3 cropMax = vec3(1.0);
-#if HAS_LABELS
-uniform usampler3D labels;
-#endif
 
 /* Along the ray, t = 0 at the eye: where it is in the box of texture coordinates [0,1], how fast it
  * moves there, and how fast in own coordinates. */
@@ -23,26 +20,15 @@ float leave;
 vec4 sample_place; /* where fog looks, in eye space */
 #endif
 
-/* Where the ray is between the planes of the crop box. */
-void cross_box(const in float start, const in float limit) {
-    vec3 low = max(cropMin, 0.0), high = min(cropMax, 1.0);
-    /* a component of 0 stays on its side of both faces: 1e-30 reaches neither in any picture */
-    vec3 d = mix(ray_direction, vec3(1.0e-30), equal(ray_direction, vec3(0.0)));
-    vec3 to_low = (low - ray_origin) / d, to_high = (high - ray_origin) / d;
-    vec3 near = min(to_low, to_high), far = max(to_low, to_high);
-    enter = max(max(near.x, near.y), max(near.z, start));
-    leave = min(min(far.x, far.y), min(far.z, limit));
-    if (any(greaterThan(low, high)))
-        leave = -NOWHERE;
-}
-
 void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, const in float start,
                        const in float limit) {
     vec3 direction = mat3(eyeToLocal) * direction_eye;
     ray_speed = length(direction);
     ray_origin = (eyeToLocal * vec4(origin_eye, 1.0)).xyz / dimensions + 0.5;
     ray_direction = direction / dimensions;
-    cross_box(start, limit);
+    vec2 ends = cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction);
+    enter = max(ends.x, start);
+    leave = min(ends.y, limit);
 #if PLUG_USED(volume_ray)
     float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */
@@ -95,12 +81,7 @@ void sample_at(out VolumeSample s, const in float t, const in float span, const 
     s.step_length = span * ray_speed;
 #endif
 #if READS(segment)
-#if HAS_LABELS
-    ivec3 size = textureSize(labels, 0);
-    s.segment = int(texelFetch(labels, clamp(ivec3(position * vec3(size)), ivec3(0), size - 1), 0).r);
-#else
-    s.segment = 0;
-#endif
+    s.segment = segment_at(position);
 #endif
 #if READS(surface)
     s.surface = -1;

@@ -5,6 +5,20 @@ uniform mat4 eyeToLocal; /* eye space -> the volume's own coordinates, the box c
 uniform vec3 dimensions;
 uniform sampler3D voxels;
 
+#if defined(HAS_LABELS) && HAS_LABELS
+uniform usampler3D labels;
+
+/* The number of the segment: that of the nearest voxel. */
+int segment_at(const in vec3 position) {
+    ivec3 size = textureSize(labels, 0);
+    return int(texelFetch(labels, clamp(ivec3(position * vec3(size)), ivec3(0), size - 1), 0).r);
+}
+#else
+int segment_at(const in vec3 position) {
+    return 0;
+}
+#endif
+
 /* The scalar of a voxel, for gradients and surfaces: L, or the mean of RGB. */
 float voxel_scalar(const in vec4 value) {
 #if voxels_COMPONENTS >= 3

@@ -30,11 +30,6 @@ out vec4 plugray_FragColor;
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
 
-/* How many steps a part of the ray takes; a remainder that is only rounding is no step. */
-int step_count(float whole, float step_length) {
-    return int(ceil(min(whole / step_length - 1.0e-4, 1.0e6)));
-}
-
 #if HAS_PARTS
 float part_start = 0.0;
 float part_end = NOWHERE; /* where it is not the end of the ray */
