@@ -66,6 +66,17 @@ static void drop_last_component(plr_image *image) {
     image->components--;
 }
 
+static void take_geometry(reading *r, const plr_volume *volume) {
+    r->kept->placed = plr_volume_file_geometry(volume, plr_scene_length_unit(r->view->scene),
+                                               &r->kept->place, r->kept->dimensions);
+    if (!r->kept->placed)
+        plr_diags_add_as(
+            r->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME,
+            plr_node_field(r->owner, "fileGeometry")->place,
+            "the data tell no size and directions that could be used: fileGeometry has "
+            "no effect, `dimensions` counts");
+}
+
 static bool read_volume(reading *r, const plr_volume *volume) {
     double range[2];
     plr_volume_node_range(r->owner, range);
@@ -73,8 +84,7 @@ static bool read_volume(reading *r, const plr_volume *volume) {
     r->kept->grid.range[0] = given ? range[0] : volume->minimum;
     r->kept->grid.range[1] = given ? range[1] : volume->maximum;
     if (plr_node_field(r->owner, "fileGeometry") && plr_node_bool(r->owner, "fileGeometry"))
-        r->kept->placed = plr_volume_file_geometry(volume, plr_scene_length_unit(r->view->scene),
-                                                   &r->kept->place, r->kept->dimensions);
+        take_geometry(r, volume);
     return plr_volume_to_image(volume, range, &r->voxels);
 }
 

@@ -148,6 +148,9 @@ def surroundings():
     where = affine(((1, 0, 0), (0, 0.5, 0), (0, 0, 0.4)), (-1, -0.75, -0.8), 1)
     check_corners("a file without geometry: dimensions", nrrd(), where, 1.6, (0, 0, 0),
                   fields="fileGeometry TRUE dimensions 3 2 2")
+    done = suite.render(scene("v.nrrd", 1), "-o", "a.png", files={"v.nrrd": nrrd()})
+    suite.check("a warning then, at the field",
+                "scene.x3dv:5:" in done.errors and "warning: the data tell no size" in done.errors, done.errors)
     data = nrrd("spacings: 1 0.5 0.4", 'units: "m" "m" "m"')
     check_corners("dimensions do not count where there is one", data, where, 1.6, (0, 0, 0),
                   fields="fileGeometry TRUE dimensions 7 7 7")

@@ -124,6 +124,9 @@ stats = volume["values"][0]
 check_equal((stats["minimum"], stats["maximum"], stats["nan"], stats["infinite"]), (1, 5, 1, 1), "what is no number")
 check("1 NaN, 1 infinite" in text and "declared by the file; the volume node shows 1 to 3\n" in text, "in words", text)
 
+volume, text = volume_of(nrrd("float", (2, 1, 1), struct.pack("<2f", -7, 7)), fields="windowCenter 1 windowWidth 4")
+check_equal((volume["range"], volume["shown"]), ([-7, 7], [-1, 3]), "a window")
+
 # ---- hostile values
 
 for name, kind, sizes, data in (

@@ -76,12 +76,11 @@ static void find_shown(volume_report *r) {
     r->shown[0] = r->volume.minimum;
     r->shown[1] = r->volume.maximum;
     for (size_t i = 0; i < r->use_count && !r->shown_by_node; i++) {
-        float range[2] = {0, 0};
-        plr_node_numbers(r->uses[i].user, "valueRange", range, 2);
+        double range[2];
+        plr_volume_node_range(r->uses[i].user, range);
         if (range[0] == range[1])
             continue;
-        r->shown[0] = (double)range[0];
-        r->shown[1] = (double)range[1];
+        memcpy(r->shown, range, sizeof range);
         r->shown_by_node = true;
     }
 }
