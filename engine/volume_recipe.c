@@ -12,7 +12,7 @@
 /* The units of a volume's own effect, by what it does along the ray. */
 static const char *const volume_units[] = {
     [PLR_VOLUME_FILLED] = "volume/Volume volume/grid volume/steps",
-    [PLR_VOLUME_SURFACES] = "volume/Volume volume/grid volume/surfaces",
+    [PLR_VOLUME_SURFACES] = "volume/Volume volume/grid volume/levels volume/surfaces",
     [PLR_VOLUME_PROJECTED] = "volume/Volume volume/grid volume/projection"};
 
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state) {

@@ -1,18 +1,9 @@
 /* A volume of which surfaces of equal value are drawn: each crossing is an event along the ray, whose
  * alpha is the opacity of one crossing. ISO/IEC 19775-1 V4 41.4.3, IsoSurfaceVolumeData. A unit of
- * Volume.glsl's effect.
+ * Volume.glsl's effect, beside levels.glsl.
  *
  * In a step the value at both ends tells how many surfaces lie between; each is then found where the
  * field itself crosses it, in the order in which the ray meets them. */
-
-const int MOST_SURFACES = 256;
-uniform vec2 surfaces[MOST_SURFACES]; /* value, ascending, and number, by which styles are chosen */
-uniform int surfaceCount = 0;
-uniform float surfaceTolerance = 0.0;
-uniform float gradientUnit;
-#if HAS_gradients
-uniform sampler3D gradients;
-#endif
 
 float look_end = -NOWHERE; /* where the last step ended, and the value there */
 float look_value;
@@ -36,19 +27,6 @@ float value_at(const in float t, const in vec3 origin_eye, const in vec3 directi
 #endif
 }
 
-/* How many surfaces have a value of at most this: by bisection. */
-int count_below(const in float value) {
-    int from = 0, to = surfaceCount;
-    while (from < to) {
-        int middle = (from + to) / 2;
-        if (surfaces[middle].x <= value)
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    return from;
-}
-
 /* Where the field has this value, between two places on its two sides: the Illinois method (Dowell and
  * Jarratt, BIT 11, 1971), which never leaves the bracket. */
 float find_crossing(const in float value, const in vec3 origin_eye, const in vec3 direction_eye) {
@@ -69,22 +47,6 @@ float find_crossing(const in float value, const in vec3 origin_eye, const in vec
     return b;
 }
 
-/* The gradient in own coordinates: from its own texture, n = 2 t - 1, or of the voxels. */
-vec3 surface_gradient(const in vec3 position) {
-#if HAS_gradients
-    return (2.0 * texture(gradients, position).rgb - 1.0) / gradientUnit;
-#else
-    return gradient_at(position);
-#endif
-}
-
-/* A surface is there only where the normalised gradient is above the tolerance. */
-bool is_steep(const in float t) {
-    if (surfaceTolerance <= 0.0)
-        return true;
-    return length(surface_gradient(ray_origin + t * ray_direction)) * gradientUnit > surfaceTolerance;
-}
-
 /* The next surface between bracket_start and look_end. */
 void find_event(const in vec3 origin_eye, const in vec3 direction_eye) {
     event_t = NOWHERE;
@@ -94,7 +56,7 @@ void find_event(const in vec3 origin_eye, const in vec3 direction_eye) {
         surfaces_below += up ? 1 : -1;
         float value = surfaces[event_surface].x;
         float t = find_crossing(value, origin_eye, direction_eye);
-        if (is_steep(t))
+        if (is_steep(ray_origin + t * ray_direction))
             event_t = t;
         bracket_start = t; /* what follows lies behind */
         bracket_value = value;
@@ -126,18 +88,7 @@ void PLUG_volume_meet(inout bool met, inout vec4 color, inout VolumeSample s, co
         return;
     met = true;
     sample_at(s, t, 0.0, origin_eye, direction_eye);
-#if HAS_gradients && (READS(normal_eye) || READS(gradient))
-    vec3 gradient = surface_gradient(ray_origin + t * ray_direction);
-#if READS(gradient)
-    s.gradient = length(gradient);
-#endif
-#if READS(normal_eye)
-    s.normal_eye = normal_of_gradient(gradient, mat3(eyeToLocal));
-#endif
-#endif
-#if READS(surface)
-    s.surface = int(surfaces[event_surface].y);
-#endif
+    surface_sample(s, ray_origin + t * ray_direction, event_surface);
     color = voxel_color(s.value);
     style_sample(color, s);
     find_event(origin_eye, direction_eye);

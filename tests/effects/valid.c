@@ -261,7 +261,7 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
                                      {"OPAQUE", "0"}};
 /* The units of a volume's effect, by what it does along the ray. */
 #define STEPPED "volume/Volume volume/grid volume/steps"
-#define SURFACES "volume/Volume volume/grid volume/surfaces"
+#define SURFACES "volume/Volume volume/grid volume/levels volume/surfaces"
 #define PROJECTED "volume/Volume volume/grid volume/projection"
 static const plr_define on_no_volume[] = {{"VOLUME", "0"}};
 static const plr_define fog_of_volume[] = {
