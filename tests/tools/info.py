@@ -196,6 +196,17 @@ texels = [int(word, 16) for word in re.findall(r"0x([0-9A-F]{8})", start["x3d"])
 check_equal(len(texels), 64, "64 texels")
 check(texels[2] & 255 == 0 and all(t & 255 for t in texels[26:]), "transparent in air, nowhere in the object", texels)
 
+# signed: most near zero, a lobe on either side
+values = [0.001 * (i % 7 - 3) for i in range(940)] + [0.5 + i / 60 for i in range(30)] + [-0.5 - i / 60 for i in range(30)]
+volume, _ = volume_of(nrrd("float", (10, 10, 10), struct.pack("<1000f", *values)))
+knots = volume["start_with"]["knots"]
+check_equal([-k["value"] for k in reversed(knots)], [k["value"] for k in knots], "signed values: knots on both sides")
+check_equal([k["opacity"] for k in reversed(knots)], [k["opacity"] for k in knots], "signed values: like opacities")
+inner = [k for k in knots if abs(k["value"]) < 0.5]
+check(len(inner) == 2 and not any(k["opacity"] for k in inner), "signed values: zero is background", knots)
+check(knots[0]["color"][2] > knots[0]["color"][0] and knots[-1]["color"][0] > knots[-1]["color"][2],
+      "signed values: negative ones are blue", knots)
+
 # ---- programs
 
 plugray.write("v.nrrd", data)

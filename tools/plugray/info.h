@@ -16,7 +16,7 @@ typedef struct node_list {
 /* ---- Transfer functions ---- */
 
 enum {
-    TRANSFER_KNOTS = 5,
+    TRANSFER_KNOTS = 8,
     TRANSFER_TEXELS = 64
 };
 

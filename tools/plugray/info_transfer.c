@@ -42,31 +42,81 @@ static double share_above(const plr_volume *volume, double threshold, uint64_t f
     return 100 * (double)counts[0] / (double)finite;
 }
 
-transfer transfer_to_start_with(const plr_volume *volume, const plr_volume_statistics *statistics,
-                                const double range[2]) {
+/* Values that are counted as object: their threshold, median and 99th percentile, and the opacities
+ * of the latter two. False where there are none. */
+typedef struct object {
+    double threshold, median, high, soft, hard;
+} object;
+
+static bool find_object(const plr_volume *volume, uint64_t finite, double low, double high,
+                        object *o) {
+    uint64_t above;
+    double values[2];
+    o->threshold = plr_volume_threshold(volume, 0, low, high);
+    double below = share_above(volume, o->threshold, finite, &above);
+    const double percents[2] = {below + (100 - below) * 0.5, below + (100 - below) * 0.99};
+    if (!above || !plr_volume_get_percentiles(volume, 0, percents, 2, values))
+        return false;
+    double path = cbrt((double)above);
+    o->median = values[0];
+    o->high = values[1];
+    o->soft = opacity_per_voxel(THROUGH_MEDIAN, path);
+    o->hard = opacity_per_voxel(THROUGH_HIGH, path);
+    return true;
+}
+
+/* In warm colours, from its threshold to the end of the range. */
+static void add_object(transfer *t, const object *o) {
     static const double dark[3] = {0.35, 0.1, 0.05}, middle[3] = {0.85, 0.5, 0.35},
                         bright[3] = {1, 0.95, 0.85};
+    add_knot(t, o->threshold, dark, 0);
+    add_knot(t, o->median, middle, o->soft);
+    add_knot(t, o->high, bright, o->hard);
+    add_knot(t, fmax(t->range[1], o->high), bright, t->knots[t->count - 1].opacity);
+}
+
+/* The same for negative values, in cold colours. */
+static void add_negative(transfer *t, const object *o) {
+    static const double dark[3] = {0.05, 0.1, 0.35}, middle[3] = {0.35, 0.5, 0.85},
+                        bright[3] = {0.85, 0.95, 1};
+    add_knot(t, fmin(t->range[0], -o->high), bright, o->high > o->median ? o->hard : o->soft);
+    add_knot(t, -o->high, bright, o->hard);
+    add_knot(t, -o->median, middle, o->soft);
+    add_knot(t, -o->threshold, dark, 0);
+}
+
+/* Values that gather around zero and go as far below it as above it: an orbital, a difference. */
+static bool is_signed(const double percentiles[PLR_PERCENTILE_COUNT]) {
+    enum {
+        LEAST = 0,
+        FIVE = 2,
+        NINETY_FIVE = 6,
+        MOST = 8
+    };
+    double low = -percentiles[LEAST], high = percentiles[MOST];
+    double near = fmax(fabs(percentiles[FIVE]), fabs(percentiles[NINETY_FIVE]));
+    return low > 0.4 * high && high > 0.4 * low && near < 0.25 * fmin(low, high);
+}
+
+transfer transfer_to_start_with(const plr_volume *volume, const plr_volume_statistics *statistics,
+                                const double range[2]) {
     transfer t = {.range = {range[0], range[1]}};
     const double *percentiles = statistics->percentiles;
-    double low = percentiles[0], high = percentiles[PLR_PERCENTILE_COUNT - 1], object[2];
-    uint64_t above;
+    double low = percentiles[0], high = percentiles[PLR_PERCENTILE_COUNT - 1];
+    bool both = is_signed(percentiles);
+    object o;
     if (!(low < high)) {
         low = statistics->minimum;
         high = statistics->maximum;
     }
-    if (!(low < high) || !(range[0] < range[1]) || !isfinite(high - low))
+    if (!(low < high) || !(range[0] < range[1]) || !isfinite(high - low) ||
+        !find_object(volume, statistics->finite, both ? 0 : low, high, &o))
         return t;
-    double threshold = plr_volume_threshold(volume, 0, low, high);
-    double below = share_above(volume, threshold, statistics->finite, &above);
-    const double percents[2] = {below + (100 - below) * 0.5, below + (100 - below) * 0.99};
-    if (!above || !plr_volume_get_percentiles(volume, 0, percents, 2, object))
-        return t;
-    double path = cbrt((double)above), soft = opacity_per_voxel(THROUGH_MEDIAN, path);
-    add_knot(&t, fmin(range[0], threshold), dark, 0);
-    add_knot(&t, threshold, dark, 0);
-    add_knot(&t, object[0], middle, soft);
-    add_knot(&t, object[1], bright, opacity_per_voxel(THROUGH_HIGH, path));
-    add_knot(&t, fmax(range[1], object[1]), bright, t.knots[t.count - 1].opacity);
+    if (both)
+        add_negative(&t, &o);
+    else
+        add_knot(&t, fmin(range[0], o.threshold), (const double[3]){0.35, 0.1, 0.05}, 0);
+    add_object(&t, &o);
     return t;
 }
 

@@ -23,7 +23,8 @@ const char *length_unit(double metres, char buffer[32]) {
     static const struct {
         double metres;
         const char *word;
-    } units[] = {{1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};
+    } units[] = {{1, "m"},     {1e-2, "cm"}, {1e-3, "mm"},
+                 {1e-6, "um"}, {1e-9, "nm"}, {1e-10, "angstrom"}};
     if (!(metres > 0))
         return "mm (the file names no unit)";
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
