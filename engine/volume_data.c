@@ -135,15 +135,20 @@ static size_t unpacker_read(unpacker *u, char *out, size_t size) {
     return done;
 }
 
-size_t plr_inflate(const char *data, size_t length, uint64_t skip, void *out, size_t size,
-                   const char **fault) {
+size_t plr_inflate(const plr_volume_source *source, const char *data, size_t length, uint64_t skip,
+                   void *out, size_t size, const char **fault) {
+    static const size_t piece = (size_t)16 << 20;
     unpacker u;
     size_t done = 0;
     if (unpacker_start(&u, data, length)) {
         char waste[4096];
         while (skip > 0 && !u.ended && !u.fault)
             skip -= unpacker_read(&u, waste, skip < sizeof waste ? (size_t)skip : sizeof waste);
-        done = unpacker_read(&u, out, size);
+        for (size_t got = 1; got && done < size; done += got) {
+            got = unpacker_read(&u, (char *)out + done, size - done < piece ? size - done : piece);
+            if (source->progress && size > piece)
+                source->progress(source->user, source->name, (double)done / (double)size);
+        }
         /* one byte more makes zlib compare the check sum, if this is the end */
         if (done == size)
             unpacker_read(&u, waste, 1);

@@ -34,6 +34,7 @@ static bool load_child(void *user, size_t index, plr_image *slice, plr_place *pl
     const children *c = user;
     const plr_node *child = c->nodes->value.nodes[index];
     *place = plr_node_place(child);
+    plr_scene_progress(c->scene, "slices", (double)index / (double)c->nodes->count);
     return plr_image_from_texture(c->scene, child, slice, diags);
 }
 

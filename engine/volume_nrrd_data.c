@@ -199,7 +199,8 @@ static bool decode(const nrrd *header, chunk from, void *out, size_t count) {
     if (header->byte_skip >= 0 && !skip_lines(header, &from))
         return false;
     if (header->encoding == NRRD_GZIP) {
-        done = plr_inflate(from.data, from.length, (uint64_t)header->byte_skip, out, size, &fault);
+        done = plr_inflate(header->source, from.data, from.length, (uint64_t)header->byte_skip, out,
+                           size, &fault);
         if (fault)
             return NRRD_FAIL(header, from.place,
                              "the data of %s cannot be unpacked: %s after %zu of %zu bytes",

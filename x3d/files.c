@@ -259,11 +259,20 @@ x3d_failure x3d_locate(plr_scene *scene, const char *folder, const char *referre
 
 /* ---- Reading ---- */
 
+/* Longer files are read in pieces, and the host is told how far. */
+#define PIECE ((size_t)16 << 20)
+
 static size_t max_bytes(const plr_scene *scene) {
     return scene->rules.max_bytes ? scene->rules.max_bytes : (size_t)1 << 30;
 }
 
-static x3d_failure read_open_file(plr_scene *scene, int file, char **data, size_t *length) {
+void plr_scene_progress(const plr_scene *scene, const char *name, double done) {
+    if (scene->rules.progress)
+        scene->rules.progress(scene->rules.user, name, done);
+}
+
+static x3d_failure read_open_file(plr_scene *scene, const char *name, int file, char **data,
+                                  size_t *length) {
     struct stat status;
     if (fstat(file, &status) != 0)
         return fail(PLR_CODE_MISSING_FILE, "cannot be read");
@@ -276,7 +285,8 @@ static x3d_failure read_open_file(plr_scene *scene, int file, char **data, size_
     if (!bytes)
         return no_memory;
     while (used < size) {
-        ssize_t n = read(file, bytes + used, size - used);
+        size_t piece = size - used < PIECE ? size - used : PIECE;
+        ssize_t n = read(file, bytes + used, piece);
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0) {
@@ -286,6 +296,8 @@ static x3d_failure read_open_file(plr_scene *scene, int file, char **data, size_
         if (n == 0)
             break;
         used += (size_t)n;
+        if (size > PIECE)
+            plr_scene_progress(scene, name, (double)used / (double)size);
     }
     bytes[used] = '\0';
     *data = bytes;
@@ -293,15 +305,15 @@ static x3d_failure read_open_file(plr_scene *scene, int file, char **data, size_
     return fine;
 }
 
-static x3d_failure read_file(plr_scene *scene, const char *path, int flags, char **data,
-                             size_t *length) {
+static x3d_failure read_file(plr_scene *scene, const char *name, const char *path, int flags,
+                             char **data, size_t *length) {
     /* O_NONBLOCK: a pipe without a writer must not hold us up. */
     int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC | flags);
     if (file < 0)
         return errno == ENOENT || errno == ENOTDIR
                    ? fail(PLR_CODE_MISSING_FILE, "does not exist")
                    : fail(PLR_CODE_MISSING_FILE, "cannot be opened");
-    x3d_failure failure = read_open_file(scene, file, data, length);
+    x3d_failure failure = read_open_file(scene, name, file, data, length);
     close(file);
     return failure;
 }
@@ -319,23 +331,24 @@ static x3d_failure fetch(plr_scene *scene, const char *url, char **data, size_t 
     return *data ? fine : no_memory;
 }
 
-static x3d_failure unpack(plr_scene *scene, char **data, size_t *length) {
+static x3d_failure unpack(plr_scene *scene, const char *name, char **data, size_t *length) {
     if (!x3d_is_gzip(*data, *length))
         return fine;
     char *packed = *data;
-    x3d_failure failure = x3d_gunzip(scene, packed, *length, data, length);
+    x3d_failure failure = x3d_gunzip(scene, name, packed, *length, data, length);
     x3d_block_free(packed);
     return failure;
 }
 
 x3d_failure x3d_read_located(plr_scene *scene, const x3d_located *located, bool gunzip, char **data,
                              size_t *length) {
-    x3d_failure failure = located->path ? read_file(scene, located->real, O_NOFOLLOW, data, length)
-                                        : fetch(scene, located->name, data, length);
-    return failure.text || !gunzip ? failure : unpack(scene, data, length);
+    x3d_failure failure =
+        located->path ? read_file(scene, located->name, located->real, O_NOFOLLOW, data, length)
+                      : fetch(scene, located->name, data, length);
+    return failure.text || !gunzip ? failure : unpack(scene, located->name, data, length);
 }
 
 x3d_failure x3d_read_path(plr_scene *scene, const char *path, char **data, size_t *length) {
-    x3d_failure failure = read_file(scene, path, 0, data, length);
-    return failure.text ? failure : unpack(scene, data, length);
+    x3d_failure failure = read_file(scene, path, path, 0, data, length);
+    return failure.text ? failure : unpack(scene, path, data, length);
 }

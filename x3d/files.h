@@ -40,9 +40,9 @@ x3d_failure x3d_load_url(plr_scene *scene, const plr_string *url, bool gunzip, p
                          const char **name);
 
 bool x3d_is_gzip(const char *data, size_t length);
-/* Unpacks; `data` is then a new block. */
-x3d_failure x3d_gunzip(plr_scene *scene, const char *packed, size_t packed_length, char **data,
-                       size_t *length);
+/* Unpacks; `data` is then a new block. `name` is for the scene's progress. */
+x3d_failure x3d_gunzip(plr_scene *scene, const char *name, const char *packed, size_t packed_length,
+                       char **data, size_t *length);
 
 /* Memory that knows its allocator, so that it can outlive the scene. NULL without memory. */
 char *x3d_block_new(const plr_allocator *allocator, size_t size);

@@ -8,6 +8,9 @@ bool x3d_is_gzip(const char *data, size_t length) {
     return length > 2 && (unsigned char)data[0] == 0x1f && (unsigned char)data[1] == 0x8b;
 }
 
+/* That much is unpacked before the host is told how far. */
+#define PIECE (16u << 20)
+
 typedef struct unpacker {
     z_stream stream;
     const char *packed;
@@ -50,7 +53,7 @@ static x3d_failure step(unpacker *u, bool *done) {
                    ? fail(PLR_CODE_LIMIT, "is larger than may be read")
                    : fail(PLR_CODE_NO_MEMORY, "not enough memory to unpack the file");
     size_t room = u->size - u->used;
-    uInt before = room < UINT_MAX / 2 ? (uInt)room : UINT_MAX / 2;
+    uInt before = room < PIECE ? (uInt)room : PIECE;
     u->stream.next_out = (Bytef *)u->data + u->used;
     u->stream.avail_out = before;
     int result = inflate(&u->stream, Z_NO_FLUSH);
@@ -73,8 +76,8 @@ static x3d_failure step(unpacker *u, bool *done) {
     return fail(PLR_CODE_MISSING_FILE, NULL);
 }
 
-x3d_failure x3d_gunzip(plr_scene *scene, const char *packed, size_t packed_length, char **data,
-                       size_t *length) {
+x3d_failure x3d_gunzip(plr_scene *scene, const char *name, const char *packed, size_t packed_length,
+                       char **data, size_t *length) {
     unpacker u = {.packed = packed, .left = packed_length};
     u.most = scene->rules.max_bytes ? scene->rules.max_bytes : (size_t)1 << 30;
     u.size = packed_length < u.most / 4 ? packed_length * 4 : u.most;
@@ -87,8 +90,12 @@ x3d_failure x3d_gunzip(plr_scene *scene, const char *packed, size_t packed_lengt
         return fail(PLR_CODE_NO_MEMORY, "not enough memory to unpack the file");
     }
     x3d_failure failure = {PLR_CODE_MISSING_FILE, NULL};
-    for (bool done = false; !done && !failure.text;)
+    for (bool done = false; !done && !failure.text;) {
         failure = step(&u, &done);
+        size_t given = packed_length - u.left - u.stream.avail_in;
+        if (u.used > PIECE)
+            plr_scene_progress(scene, name, (double)given / (double)packed_length);
+    }
     inflateEnd(&u.stream);
     if (failure.text) {
         x3d_block_free(u.data);

@@ -136,7 +136,7 @@ static bool read_input(plr_scene *scene, const input *in) {
     if (!in->text)
         failure = x3d_read_path(scene, path, &data, &length);
     else if (x3d_is_gzip(in->text, in->length))
-        failure = x3d_gunzip(scene, in->text, in->length, &data, &length);
+        failure = x3d_gunzip(scene, path, in->text, in->length, &data, &length);
     else if (!(data = x3d_block_copy(&scene->allocator, in->text, in->length)))
         failure.text = "not enough memory";
     if (failure.text) {

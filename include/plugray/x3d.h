@@ -24,6 +24,9 @@ typedef struct plr_file_rules {
     /* The host's way to fetch a network url: returns malloc'ed bytes or NULL. May be NULL. */
     char *(*fetch)(void *user, const char *url, size_t *length);
     void *user;
+    /* Told now and then, on the thread that reads, while long files are read, unpacked and
+     * decoded: the name of the file and how much of this work is done, 0 to 1. May be NULL. */
+    void (*progress)(void *user, const char *name, double done);
 } plr_file_rules;
 
 /* Bytes read from a file or a data: url. */
@@ -226,6 +229,8 @@ PLR_API bool plr_scene_list(plr_scene *scene, const plr_string *url, size_t limi
 /* Whether a url means a folder. */
 PLR_API bool plr_url_is_folder(const plr_string *url);
 PLR_API void plr_bytes_free(plr_bytes *bytes);
+/* Tells the scene's `progress`, where it has one: for those who decode what its files hold. */
+PLR_API void plr_scene_progress(const plr_scene *scene, const char *name, double done);
 
 /* Source code from the url field of an EffectPart, ShaderPart or the like: inline text ("data:..."
  * or text that is no url, as CDATA gives it) or a file. `code->text` lives as long as the scene;

@@ -281,6 +281,44 @@ static void test_gzip(void) {
     CHECK(scene == NULL);
 }
 
+typedef struct told {
+    int calls;
+    double last;
+    bool in_order, named;
+} told;
+
+static void hear(void *user, const char *name, double done) {
+    told *t = user;
+    t->in_order = t->in_order && done >= t->last && done <= 1;
+    t->named = t->named && strcmp(name, "long.x3dvz") == 0;
+    t->last = done;
+    t->calls++;
+}
+
+/* Long files are told of while they are unpacked, short ones are not. */
+static void test_progress(void) {
+    enum {
+        LENGTH = 40 << 20
+    };
+    char *blanks = malloc(LENGTH + 1);
+    memset(blanks, ' ', LENGTH);
+    memcpy(blanks, CLASSIC("\n"), strlen(CLASSIC("\n")));
+    blanks[LENGTH] = '\0';
+    write_gzip("long.x3dvz", blanks);
+    free(blanks);
+    told t = {0, 0, true, true};
+    plr_read_desc desc = {.rules = {.progress = hear, .user = &t}};
+    plr_scene *scene = read_checked("a long file", "long.x3dvz", &desc, "");
+    plr_scene_destroy(&scene);
+    CHECK(t.calls >= 2 && t.calls < 100 && t.in_order && t.named && t.last == 1);
+    t = (told){0, 0, true, true};
+    write_gzip("short.x3dvz", CLASSIC("\n"));
+    scene = read_checked("a short file", "short.x3dvz", &desc, "");
+    plr_scene_progress(scene, "long.x3dvz", 0.5);
+    CHECK(t.calls == 1 && t.last == 0.5);
+    plr_scene_destroy(&scene);
+}
+
 static void test_beside(void) {
     mkdir("scene/deep", 0777);
     write_file("scene/deep/head", "data"), write_file("scene/deep/body", "data");
@@ -385,6 +423,7 @@ int main(void) {
     test_rules();
     test_network();
     test_gzip();
+    test_progress();
     test_beside();
     test_folders();
     test_urls_of_folders();

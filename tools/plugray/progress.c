@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@ static struct {
     pthread_cond_t changed;
     pthread_t thread;
     const char *phase;
+    char file[256]; /* "name, 45 %", or nothing */
     struct timespec start;
     bool running, shown, end;
 } state = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
@@ -35,7 +37,7 @@ static void *show(void *unused) {
         long seconds = seconds_shown(&now);
         if (state.end || seconds < 1)
             continue;
-        fprintf(stderr, "\r\033[Kplugray: %s, %ld s", state.phase, seconds);
+        fprintf(stderr, "\r\033[Kplugray: %s%s, %ld s", state.phase, state.file, seconds);
         fflush(stderr);
         state.shown = true;
     }
@@ -50,6 +52,7 @@ void progress(const char *phase) {
     bool stop = !phase && state.running, start = phase && !state.running;
     if (phase)
         state.phase = phase;
+    state.file[0] = '\0';
     state.end = !phase;
     pthread_cond_signal(&state.changed);
     if (start) {
@@ -64,4 +67,16 @@ void progress(const char *phase) {
     if (state.shown)
         fputs("\r\033[K", stderr);
     state.shown = false;
+}
+
+void progress_of_file(void *unused, const char *name, double done) {
+    (void)unused;
+    const char *slash = strrchr(name, '/');
+    pthread_mutex_lock(&state.mutex);
+    if (done < 1)
+        snprintf(state.file, sizeof state.file, " %.200s, %.0f %%", slash ? slash + 1 : name,
+                 100 * done);
+    else
+        state.file[0] = '\0';
+    pthread_mutex_unlock(&state.mutex);
 }

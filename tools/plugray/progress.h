@@ -5,5 +5,7 @@
 /* What goes on from now on; NULL: nothing, and the line is taken away (before anything is printed).
  */
 void progress(const char *phase);
+/* How far the phase is with the file `name`, 0 to 1; a plr_file_rules.progress. */
+void progress_of_file(void *unused, const char *name, double done);
 
 #endif

@@ -21,7 +21,8 @@ static void read_scene(tool_scene *s, const tool_arguments *arguments, const cha
     plr_read_desc desc = {
         .rules = {.allowed = s->allowed,
                   .allowed_count = count,
-                  .allow_network = option_value(arguments, OPTION_ALLOW_NETWORK) != NULL}};
+                  .allow_network = option_value(arguments, OPTION_ALLOW_NETWORK) != NULL,
+                  .progress = progress_of_file}};
     if (desc.rules.allow_network)
         plr_diags_add_as(s->diags, PLR_WARNING, PLR_CODE_NOT_ALLOWED, (plr_place){NULL, 0, 0},
                          "--allow-network: this version has no way to read over the network");
