@@ -25,7 +25,7 @@ plr_volume_format plr_volume_sniff(const char *data, size_t length) {
             return PLR_VOLUME_NIFTI;
         return PLR_VOLUME_ANALYZE;
     }
-    return PLR_VOLUME_UNKNOWN;
+    return plr_dicom_sniff(data, length) ? PLR_VOLUME_DICOM : PLR_VOLUME_UNKNOWN;
 }
 
 static bool parse_format(const plr_volume_source *source, plr_volume *volume) {
@@ -34,6 +34,8 @@ static bool parse_format(const plr_volume_source *source, plr_volume *volume) {
         return plr_volume_parse_nrrd(source, volume);
     case PLR_VOLUME_NIFTI:
         return plr_volume_parse_nifti(source, volume);
+    case PLR_VOLUME_DICOM:
+        return plr_volume_parse_dicom(source, volume);
     case PLR_VOLUME_ANALYZE:
         plr_diags_add(source->diags, PLR_CODE_BAD_VOLUME, source->place,
                       "%s is in ANALYZE 7.5 format, which is not read; convert it to NIfTI",

@@ -26,8 +26,6 @@ typedef struct plr_volume_source {
     bool (*load)(void *user, const char *referrer, const char *name, bool gunzip, plr_place place,
                  plr_bytes *bytes, plr_diags *diags);
     void (*release)(void *user, plr_bytes *bytes);
-    /* Told how much of the file is decoded, 0 to 1; NULL: nobody asks. */
-    void (*progress)(void *user, const char *name, double done);
     void *user;
 } plr_volume_source;
 
@@ -35,6 +33,7 @@ typedef enum plr_volume_format {
     PLR_VOLUME_UNKNOWN,
     PLR_VOLUME_NRRD,
     PLR_VOLUME_NIFTI,
+    PLR_VOLUME_DICOM,
     PLR_VOLUME_ANALYZE /* recognised so that the message can say so; not read */
 } plr_volume_format;
 
@@ -46,6 +45,14 @@ bool plr_volume_parse(const plr_volume_source *source, plr_volume *volume);
  * they fail. A declared range is set with range_declared. */
 bool plr_volume_parse_nrrd(const plr_volume_source *source, plr_volume *volume);
 bool plr_volume_parse_nifti(const plr_volume_source *source, plr_volume *volume);
+/* Whether bytes look like a DICOM file. */
+bool plr_dicom_sniff(const char *data, size_t length);
+bool plr_volume_parse_dicom(const plr_volume_source *source, plr_volume *volume);
+/* The DICOM files of a folder: `source->name` is its name and ends with '/', `source->data` are the
+ * names of its files, each with its NUL. `series`: the SeriesInstanceUID of the one to read; NULL
+ * or "": the largest. */
+bool plr_volume_parse_dicom_folder(const plr_volume_source *source, const char *series,
+                                   plr_volume *volume);
 
 /* The volume to read of `count` of them, told by `source`; warns where that is none. */
 uint64_t plr_volume_time_point(const plr_volume_source *source, uint64_t count);
@@ -99,8 +106,8 @@ void plr_swap_bytes(void *data, size_t count, size_t size);
 
 /* Unpacks one or more gzip members: drops `skip` bytes, then writes up to `size` bytes to `out`.
  * Returns how many were written; `fault` is NULL, or says why the packed data ended early. */
-size_t plr_inflate(const plr_volume_source *source, const char *data, size_t length, uint64_t skip,
-                   void *out, size_t size, const char **fault);
+size_t plr_inflate(const char *data, size_t length, uint64_t skip, void *out, size_t size,
+                   const char **fault);
 /* Unpacks a whole file of at most `limit` bytes to malloc'ed memory; NULL with `fault` set. */
 char *plr_gunzip(const char *data, size_t length, size_t limit, size_t *out_length,
                  const char **fault);

@@ -19,18 +19,14 @@ static void release(void *user, plr_bytes *bytes) {
     plr_bytes_free(bytes);
 }
 
-static void report_progress(void *user, const char *name, double done) {
-    plr_scene_progress(user, name, done);
-}
-
 /* What there is to make: which node, and whose volume. */
 typedef struct reading {
     const plr_node *texture;
     plr_volume *volume;
 } reading;
 
-static bool read_volume(const reading *r, plr_scene *scene, const plr_bytes *bytes, plr_place place,
-                        plr_diags *diags) {
+static plr_volume_source make_source(const reading *r, plr_scene *scene, const plr_bytes *bytes,
+                                     plr_place place, plr_diags *diags) {
     plr_volume_source source = {.data = bytes->data,
                                 .length = bytes->length,
                                 .name = bytes->name ? bytes->name : "the data",
@@ -38,7 +34,6 @@ static bool read_volume(const reading *r, plr_scene *scene, const plr_bytes *byt
                                 .diags = diags,
                                 .load = load_beside,
                                 .release = release,
-                                .progress = report_progress,
                                 .user = scene};
     const plr_field *time = plr_node_field(r->texture, "timePoint");
     if (time && time->given) {
@@ -47,6 +42,12 @@ static bool read_volume(const reading *r, plr_scene *scene, const plr_bytes *byt
         source.time_point = point < 0 ? 0 : (uint32_t)point;
         source.time_place = time->place;
     }
+    return source;
+}
+
+static bool read_volume(const reading *r, plr_scene *scene, const plr_bytes *bytes, plr_place place,
+                        plr_diags *diags) {
+    plr_volume_source source = make_source(r, scene, bytes, place, diags);
     return plr_volume_parse(&source, r->volume);
 }
 
@@ -96,7 +97,6 @@ static const struct {
     size_t offset, length;
 } other_formats[] = {
     {"\xabKTX ", "KTX", 0, 5},
-    {"DICM", "DICOM", 128, 4},
     {"\x89HDF", "HDF5", 0, 4},
     {"# vtk", "VTK", 0, 5},
 };
@@ -177,14 +177,34 @@ static bool load_numbered(void *user, size_t index, plr_image *slice, plr_place 
     plr_bytes_free(&bytes);
     if (fine)
         plr_image_flatten(slice);
-    plr_scene_progress(n->scene, name, (double)(index + 1) / (double)n->pattern.count);
     return fine;
+}
+
+/* ---- Folders ---- */
+
+enum {
+    MAX_FILES = 10000
+};
+
+/* "scans/" or "scans/#SeriesInstanceUID": the slices that lie there. */
+static plr_url_outcome read_folder(const reading *r, plr_scene *scene, const plr_string *url,
+                                   plr_place place, plr_diags *diags) {
+    plr_bytes names;
+    if (!plr_scene_list(scene, url, MAX_FILES, &names, diags))
+        return PLR_URL_NOT_LOADED;
+    plr_volume_source source = make_source(r, scene, &names, place, diags);
+    const char *mark = strchr(url->text, '#');
+    bool fine = plr_volume_parse_dicom_folder(&source, mark ? mark + 1 : NULL, r->volume);
+    plr_bytes_free(&names);
+    return fine ? PLR_URL_FINE : PLR_URL_NOT_UNDERSTOOD;
 }
 
 static plr_url_outcome read_url(void *user, plr_scene *scene, const plr_string *url,
                                 plr_place place, plr_diags *diags) {
     const reading *r = user;
     numbered n = {.scene = scene, .url = url, .place = place};
+    if (plr_url_is_folder(url))
+        return read_folder(r, scene, url, place, diags);
     bool is_name = url->length < 4096 && strncmp(url->text, "data:", 5) != 0;
     if (is_name && plr_file_pattern_parse(&n.pattern, url->text, url->length))
         return plr_volume_from_slices(load_numbered, &n, n.pattern.count, place, r->volume, diags)
