@@ -26,6 +26,8 @@ typedef struct plr_volume_source {
     bool (*load)(void *user, const char *referrer, const char *name, bool gunzip, plr_place place,
                  plr_bytes *bytes, plr_diags *diags);
     void (*release)(void *user, plr_bytes *bytes);
+    /* Told how much of the file is decoded, 0 to 1; NULL: nobody asks. */
+    void (*progress)(void *user, const char *name, double done);
     void *user;
 } plr_volume_source;
 
@@ -106,8 +108,8 @@ void plr_swap_bytes(void *data, size_t count, size_t size);
 
 /* Unpacks one or more gzip members: drops `skip` bytes, then writes up to `size` bytes to `out`.
  * Returns how many were written; `fault` is NULL, or says why the packed data ended early. */
-size_t plr_inflate(const char *data, size_t length, uint64_t skip, void *out, size_t size,
-                   const char **fault);
+size_t plr_inflate(const plr_volume_source *source, const char *data, size_t length, uint64_t skip,
+                   void *out, size_t size, const char **fault);
 /* Unpacks a whole file of at most `limit` bytes to malloc'ed memory; NULL with `fault` set. */
 char *plr_gunzip(const char *data, size_t length, size_t limit, size_t *out_length,
                  const char **fault);

@@ -19,6 +19,10 @@ static void release(void *user, plr_bytes *bytes) {
     plr_bytes_free(bytes);
 }
 
+static void report_progress(void *user, const char *name, double done) {
+    plr_scene_progress(user, name, done);
+}
+
 /* What there is to make: which node, and whose volume. */
 typedef struct reading {
     const plr_node *texture;
@@ -34,6 +38,7 @@ static plr_volume_source make_source(const reading *r, plr_scene *scene, const p
                                 .diags = diags,
                                 .load = load_beside,
                                 .release = release,
+                                .progress = report_progress,
                                 .user = scene};
     const plr_field *time = plr_node_field(r->texture, "timePoint");
     if (time && time->given) {
@@ -177,6 +182,7 @@ static bool load_numbered(void *user, size_t index, plr_image *slice, plr_place 
     plr_bytes_free(&bytes);
     if (fine)
         plr_image_flatten(slice);
+    plr_scene_progress(n->scene, name, (double)(index + 1) / (double)n->pattern.count);
     return fine;
 }
 
