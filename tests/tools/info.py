@@ -239,6 +239,11 @@ check_equal([(d["node"], d["def"], d["place"]["line"]) for d in program["draws"]
             "what is drawn")
 check("        draws VolumeData V at scene.x3dv:3:7\n" in text, "in words", text)
 
+two = scene("v.nrrd", SHADED, before=scene("v.nrrd").split("\n", 1)[1].replace("DEF V ", ""))
+result, _ = info(two)
+(program,) = result["programs"]
+check_equal((program["gradients"], len(program["draws"])), (1, 2), "two volumes, one of them lit: one gradient")
+
 EFFECT = """effects DEF Steep Effect { language "GLSL" parts EffectPart { type "FRAGMENT" url "data:text/plain,
   void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color.a *= s.gradient; }
 " } }"""
