@@ -1,4 +1,5 @@
 /* Where each uniform of a program takes its value from, and setting it. */
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -38,8 +39,9 @@ struct plr_slot {
         SLOT_LABELS,
         SLOT_SURFACES,
         SLOT_DEFAULT_RAMP,
-        SLOT_OPAQUE_DEPTH
+        SLOT_DEPTHS
     } source;
+    size_t depths;        /* of SLOT_DEPTHS: where in plr_frame its name is */
     plr_texture *texture; /* NULL: none; the sampler reads black */
     unsigned unit;
     plr_texture_use use;
@@ -53,6 +55,23 @@ static const plr_field *counted_field(const plr_node *node, const char *name) {
         return NULL;
     snprintf(field, sizeof field, "%.*s", (int)(length - tail), name);
     return plr_node_field(node, field);
+}
+
+/* The depth textures of the frame. */
+static bool find_depths(const char *name, plr_slot *slot) {
+    static const struct {
+        const char *name;
+        size_t offset;
+    } depths[] = {{"opaqueDepth", offsetof(plr_frame, opaque_depth)},
+                  {"partStart", offsetof(plr_frame, part_start)},
+                  {"partEnd", offsetof(plr_frame, part_end)}};
+    slot->source = SLOT_DEPTHS;
+    for (size_t i = 0; i < sizeof depths / sizeof *depths; i++)
+        if (strcmp(depths[i].name, name) == 0) {
+            slot->depths = depths[i].offset;
+            return true;
+        }
+    return false;
 }
 
 /* What a volume has that is no field of a node. */
@@ -73,10 +92,8 @@ static plr_texture *texture_of(plr_kitchen *k, const plr_node *node, const plr_b
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
 static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
                         bool builtin, size_t element, plr_slot *slot) {
-    if (slot->type->shape == SHAPE_SAMPLER && !binding) {
-        slot->source = SLOT_OPAQUE_DEPTH;
-        return strcmp(symbol->name, "opaqueDepth") == 0;
-    }
+    if (slot->type->shape == SHAPE_SAMPLER && !binding)
+        return find_depths(symbol->name, slot);
     if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->grid &&
         strcmp(symbol->name, "voxels") == 0) {
         slot->source = SLOT_VOXELS;
@@ -323,9 +340,10 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
     case SLOT_DEFAULT_RAMP:
         plr_texture_bind(textures, values->default_ramp, slot->unit, PLR_USE_CLAMPED);
         break;
-    case SLOT_OPAQUE_DEPTH:
+    case SLOT_DEPTHS:
         gl->ActiveTexture(GL_TEXTURE0 + slot->unit);
-        gl->BindTexture(GL_TEXTURE_2D, values->frame->opaque_depth);
+        gl->BindTexture(GL_TEXTURE_2D,
+                        *(const GLuint *)((const char *)values->frame + slot->depths));
         gl->BindSampler(slot->unit, 0);
         break;
     }

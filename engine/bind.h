@@ -11,6 +11,8 @@ typedef struct plr_frame {
     double cut[2];      /* the viewpoint's own near and far distance, or 0 and infinity */
     double time;
     GLuint opaque_depth; /* depth texture of opaque surfaces, 0: none */
+    GLuint part_start; /* of translucent surfaces that divide rays; 0: the part starts at the eye */
+    GLuint part_end;   /* opaque_depth: the part ends with the ray */
     /* The depth buffer holds near / distance: 0 is infinitely far. Relative precision is then that
      * of a float at any distance, without a far plane. Else it is GL's own. */
     bool reversed_depth;

@@ -69,6 +69,9 @@ static void v_depth_to_clip(const plr_known_context *c, float *out) {
 static void v_empty_depth(const plr_known_context *c, float *out) {
     out[0] = c->values->frame->reversed_depth ? 0 : 1;
 }
+static void v_has_part_start(const plr_known_context *c, float *out) {
+    out[0] = c->values->frame->part_start != 0;
+}
 static void v_time(const plr_known_context *c, float *out) {
     out[0] = (float)c->values->frame->time;
 }
@@ -209,6 +212,7 @@ static const plr_known known[] = {
     {"viewpointCut", OWNER_HOST, v_cut},
     {"depthToClip", OWNER_HOST, v_depth_to_clip},
     {"emptyDepth", OWNER_HOST, v_empty_depth},
+    {"hasPartStart", OWNER_HOST, v_has_part_start},
     {"transparencyLeft", OWNER_HOST, v_transparency_left},
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
     {"eyeToProjector", OWNER_NODE, v_eye_to_projector},

@@ -1,9 +1,26 @@
 #include "engine/frame.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* ---- Planning ---- */
+
+/* Where volumes write depths, these are between the planes, too. */
+static void hold_volumes(const plr_view *view, const plr_matrix *world_to_eye, double depths[2]) {
+    for (size_t i = 0; i < view->volumes.count; i++) {
+        const plr_volume_state *volume = &view->volumes.volumes[i];
+        if (!plr_node_bool(volume->node, "writeDepth"))
+            continue;
+        plr_matrix to_eye = plr_matrix_multiply(world_to_eye, &volume->to_world);
+        for (int corner = 0; corner < 8; corner++) {
+            double point[3];
+            for (int axis = 0; axis < 3; axis++)
+                point[axis] = volume->dimensions[axis] * ((corner >> axis & 1) - 0.5);
+            plr_matrix_point(&to_eye, point, point);
+            depths[0] = fmin(depths[0], -point[2]);
+            depths[1] = fmax(depths[1], -point[2]);
+        }
+    }
+}
 
 /* With reversed depths the far plane is infinitely far and the near plane may be as near as it
  * likes: precision does not depend on them. Else, and in parallel projection, they hold the
@@ -11,6 +28,7 @@
 void plr_frame_depths(const plr_view *view, const plr_matrix *world_to_eye, bool parallel,
                       bool reversed, double depths[2]) {
     plr_surfaces_depths(view, world_to_eye, depths);
+    hold_volumes(view, world_to_eye, depths);
     if (!(depths[1] >= depths[0])) {
         depths[0] = 0.1;
         depths[1] = 10;
@@ -102,32 +120,6 @@ void plr_frame_draw_opaque(plr_view *view, const plr_frame *frame, const plr_sho
     for (size_t i = 0; i < view->surface_count; i++)
         if (!view->surfaces[i].model->blends)
             draw_surface(view, &view->surfaces[i], frame, shot);
-}
-
-static int farther_first(const void *a, const void *b) {
-    double x = (*(plr_surface *const *)a)->depth, y = (*(plr_surface *const *)b)->depth;
-    return x < y ? 1 : x > y ? -1 : 0;
-}
-
-/* Translucent surfaces and volumes, from the farthest to the nearest. Volumes read the depths of
- * the frame, so they are drawn without them where that texture belongs to the framebuffer. */
-void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const plr_shot *shot) {
-    const plr_gl *gl = &view->engine->gl;
-    qsort(view->blending, view->blending_count, sizeof *view->blending, farther_first);
-    plr_volume_depths(view, frame);
-    size_t next = 0;
-    for (size_t i = 0; i < view->volumes.cast_count; i++) {
-        const plr_cast *cast = &view->volumes.casts[i];
-        while (next < view->blending_count && view->blending[next]->depth > cast->depth)
-            draw_surface(view, view->blending[next++], frame, shot);
-        if (shot->avoid && plr_bind_reads(&cast->pass.slots, shot->avoid))
-            continue;
-        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, shot->without_depth);
-        plr_cast_draw(view, cast, frame);
-        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, shot->framebuffer);
-    }
-    while (next < view->blending_count)
-        draw_surface(view, view->blending[next++], frame, shot);
 }
 
 void plr_frame_draw(plr_view *view, const plr_frame *frame, const plr_shot *shot) {

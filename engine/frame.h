@@ -8,6 +8,8 @@
 typedef struct plr_shot {
     GLuint framebuffer;   /* with colours and depths */
     GLuint without_depth; /* the same colours, while volumes read the depths of plr_frame */
+    GLuint depths;        /* what has the depths of plr_frame, from (0, 0) on */
+    bool depths_copied;   /* these are a copy of those of `framebuffer` */
     const plr_background *background;
     const float *behind;      /* RGBA where there is no background; NULL: nothing is cleared */
     const plr_texture *avoid; /* what reads this texture is left out; may be NULL */
@@ -33,6 +35,8 @@ void plr_frame_conventions(const plr_view *view, const plr_frame *frame);
 
 /* The parts of a drawing, with the framebuffer and the viewport that are set. */
 void plr_frame_draw_opaque(plr_view *view, const plr_frame *frame, const plr_shot *shot);
+/* Translucent surfaces and volumes, from the farthest to the nearest. Volumes read the depths of
+ * the frame, so they are drawn without them where that texture belongs to the framebuffer. */
 void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const plr_shot *shot);
 /* All of it into our own framebuffer: conventions, background, opaque, translucent. Binds
  * framebuffer and viewport. */

@@ -150,6 +150,57 @@ bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels) {
     return read;
 }
 
+/* ---- Depths apart ---- */
+
+static void make_spare(plr_spare_depths *spare, int index) {
+    const plr_gl *gl = spare->gl;
+    make_texture(gl, spare->textures[index], GL_DEPTH_COMPONENT32F, spare->width, spare->height,
+                 GL_DEPTH_COMPONENT);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, spare->names[index]);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                             spare->textures[index], 0);
+    gl->DrawBuffer(GL_NONE);
+    gl->ReadBuffer(GL_NONE);
+}
+
+bool plr_spare_depths_fit(plr_spare_depths *spare, const plr_gl *gl, int width, int height) {
+    if (spare->gl && spare->width >= width && spare->height >= height)
+        return true;
+    if (!spare->gl) {
+        gl->GenFramebuffers(PLR_SPARE_DEPTHS, spare->names);
+        gl->GenTextures(PLR_SPARE_DEPTHS, spare->textures);
+        spare->gl = gl;
+    }
+    spare->width = width > spare->width ? width : spare->width;
+    spare->height = height > spare->height ? height : spare->height;
+    saved_state state;
+    save(gl, &state);
+    forget_errors(gl);
+    for (int i = 0; i < PLR_SPARE_DEPTHS; i++)
+        make_spare(spare, i);
+    bool fine = gl->GetError() == GL_NO_ERROR;
+    restore(gl, &state);
+    if (!fine)
+        spare->width = spare->height = 0; /* to be tried again */
+    return fine;
+}
+
+void plr_spare_depths_destroy(plr_spare_depths *spare) {
+    const plr_gl *gl = spare->gl;
+    if (!gl)
+        return;
+    gl->DeleteFramebuffers(PLR_SPARE_DEPTHS, spare->names);
+    gl->DeleteTextures(PLR_SPARE_DEPTHS, spare->textures);
+    *spare = (plr_spare_depths){0};
+}
+
+void plr_depths_copy(const plr_gl *gl, GLuint from, const double viewport[4], GLuint texture) {
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, (GLint)viewport[0], (GLint)viewport[1],
+                          (GLsizei)viewport[2], (GLsizei)viewport[3]);
+}
+
 /* ---- Textures of others as targets ---- */
 
 bool plr_canvas_create(plr_canvas *canvas, const plr_gl *gl, int width, int height, bool depths) {

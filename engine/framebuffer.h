@@ -27,6 +27,27 @@ void plr_framebuffer_bind(const plr_framebuffer *framebuffer);
 /* Reads width * height RGBA floats, top row first. No state of the context changes. */
 bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels);
 
+/* ---- Depths apart ---- */
+
+#define PLR_SPARE_DEPTHS 3
+
+/* Depth textures of the engine's own, that depths are copied to and drawn into. */
+typedef struct plr_spare_depths {
+    const plr_gl *gl;
+    GLuint names[PLR_SPARE_DEPTHS]; /* framebuffers without colours */
+    GLuint textures[PLR_SPARE_DEPTHS];
+    int width, height;
+} plr_spare_depths;
+
+/* Makes them, or makes them larger, so that they hold pictures of this size. Changes no state of
+ * the context. False if the context cannot. */
+bool plr_spare_depths_fit(plr_spare_depths *spare, const plr_gl *gl, int width, int height);
+/* Frees what it made in GL; a struct of zeros is fine. */
+void plr_spare_depths_destroy(plr_spare_depths *spare);
+/* Copies the depths of a framebuffer from (x, y) on to (0, 0) of a depth texture. Changes what is
+ * bound for reading and as a 2D texture of the active unit. */
+void plr_depths_copy(const plr_gl *gl, GLuint from, const double viewport[4], GLuint texture);
+
 /* ---- Textures of others as targets ---- */
 
 /* What draws into a texture: the texture's image is attached, depths are its own. */

@@ -104,6 +104,12 @@ static void move_pass(plr_pass *pass) {
     }
 }
 
+static void move_cast(plr_cast *cast) {
+    move_pass(&cast->pass);
+    if (cast->picking)
+        move_pass(&cast->picking->pass);
+}
+
 static void move_parts(plr_view *view) {
     view->background.to_world = view->flat.background_to_world;
     move_pass(&view->background.pass);
@@ -117,7 +123,7 @@ static void move_parts(plr_view *view) {
     for (size_t i = 0; i < view->volumes.count; i++)
         plr_volume_move(&view->volumes.volumes[i], view->volumes.leaves[i]);
     for (size_t i = 0; i < view->volumes.cast_count; i++)
-        move_pass(&view->volumes.casts[i].pass);
+        move_cast(&view->volumes.casts[i]);
 }
 
 static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix *eye_to_world) {
@@ -128,6 +134,9 @@ static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix 
         return false;
     move_flat(&view->flat, &flat);
     move_parts(view);
+    for (size_t i = 0; i < view->volumes.cast_count; i++)
+        if (!view->volumes.casts[i].divided && plr_cast_is_divided(view, &view->volumes.casts[i]))
+            return false; /* another program */
     view->viewpoint = plr_flat_bound(&view->flat, plr_view_chosen(view, &view->flat));
     return true;
 }

@@ -116,7 +116,8 @@ static void upload_mesh(plr_view *view, plr_model *model) {
     gl->BindVertexArray(0);
 }
 
-void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame) {
+void plr_surface_draw_faces(plr_view *view, plr_surface *surface, const plr_frame *frame,
+                            plr_faces faces, bool depths) {
     static const GLenum kinds[] = {GL_TRIANGLES, GL_LINES, GL_POINTS};
     const plr_gl *gl = &view->engine->gl;
     plr_model *model = surface->model;
@@ -126,11 +127,11 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
         upload_mesh(view, model);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(frame->reversed_depth ? GL_GEQUAL : GL_LEQUAL);
-    gl->DepthMask(!model->blends);
-    plr_surface_state_enter(gl, &model->state, model->blends);
+    gl->DepthMask(depths || !model->blends);
+    plr_surface_state_enter(gl, &model->state, model->blends && !depths);
     bool culls = model->mesh.kind == PLR_MESH_TRIANGLES && !model->mesh.two_sided;
-    (culls ? gl->Enable : gl->Disable)(GL_CULL_FACE);
-    gl->CullFace(GL_BACK);
+    (culls || faces != PLR_FACES_ALL ? gl->Enable : gl->Disable)(GL_CULL_FACE);
+    gl->CullFace(faces == PLR_FACES_BACK ? GL_FRONT : GL_BACK);
     bool mirrored = plr_matrix_determinant3(&surface->to_world) < 0;
     gl->FrontFace(model->mesh.clockwise != mirrored ? GL_CW : GL_CCW);
     gl->UseProgram(model->pass.built->name);
@@ -140,6 +141,10 @@ void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *fra
     gl->DrawElements(kinds[model->mesh.kind], (GLsizei)model->mesh.index_count, GL_UNSIGNED_INT,
                      NULL);
     plr_surface_state_leave(gl, &model->state);
+}
+
+void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame) {
+    plr_surface_draw_faces(view, surface, frame, PLR_FACES_ALL, false);
 }
 
 void plr_model_finish(plr_view *view, plr_model *model) {

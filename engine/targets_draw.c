@@ -49,6 +49,7 @@ static void draw_shot(plr_view *view, plr_target *target, plr_frame *frame) {
     frame->opaque_depth = target->canvas.depth;
     const plr_shot shot = {.framebuffer = target->canvas.name,
                            .without_depth = target->canvas.without_depth,
+                           .depths = target->canvas.name,
                            .background =
                                target->background ? target->background : &view->background,
                            .behind = black,

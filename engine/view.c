@@ -132,6 +132,7 @@ void plr_view_destroy(plr_view **view) {
     plr_world_finish(v);
     if (v->engine && v->color_only) {
         plr_framebuffer_destroy(&v->framebuffer);
+        plr_spare_depths_destroy(&v->spare);
         v->engine->gl.DeleteFramebuffers(1, &v->color_only);
         v->engine->gl.DeleteVertexArrays(1, &v->empty_vertex_array);
     }
@@ -160,6 +161,7 @@ static void draw_sample(plr_view *view, const plr_frame *frame) {
                              view->framebuffer.color, 0);
     const plr_shot shot = {.framebuffer = view->framebuffer.name,
                            .without_depth = view->color_only,
+                           .depths = view->framebuffer.name,
                            .background = &view->background,
                            .behind = nothing};
     plr_frame_draw(view, frame, &shot);
@@ -256,7 +258,10 @@ bool plr_view_draw_here(plr_view *view, const double *projection, const double *
         frame.viewport[0] = state.viewport[0];
         frame.viewport[1] = state.viewport[1];
         GLuint host = (GLuint)state.draw_framebuffer;
-        const plr_shot shot = {.framebuffer = host, .without_depth = host};
+        const plr_shot shot = {.framebuffer = host,
+                               .without_depth = host,
+                               .depths = view->framebuffer.name,
+                               .depths_copied = true};
         plr_frame_draw_opaque(view, &frame, &shot);
         copy_depths(view, host, state.viewport);
         plr_frame_draw_translucent(view, &frame, &shot);

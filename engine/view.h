@@ -28,6 +28,11 @@ typedef struct plr_cast {
     size_t *members; /* indices of volumes */
     size_t count;
     double depth; /* of the nearest centre, in this frame */
+    bool divided; /* by translucent surfaces inside: it is drawn in parts */
+    bool writes_depth;
+    bool drawn;               /* in this frame */
+    bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
+    struct plr_cast *picking; /* the same that picks; NULL: not asked for yet */
 } plr_cast;
 
 /* Voxels that outlive a change of the scene. */
@@ -76,6 +81,7 @@ typedef struct plr_surface {
     plr_model *model;
     plr_matrix to_world;
     double depth; /* of the centre, in this frame */
+    bool inside;  /* of a volume: it divides rays, in this frame */
 } plr_surface;
 
 typedef struct plr_background {
@@ -164,6 +170,8 @@ struct plr_view {
     unsigned next_projection; /* to be replaced */
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
+    plr_spare_depths spare;
+    struct plr_picked_data *picked; /* what was picked from last; NULL: nothing yet */
     plr_view_stats stats;
 };
 
@@ -202,11 +210,23 @@ void plr_background_draw(plr_view *view, const plr_background *background, const
                          const float behind[4]);
 /* Draws one cast; depths say in which order (plr_volume_depths). */
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
+/* Whether some translucent surface is inside one of its volumes; no GL. */
+bool plr_cast_is_divided(const plr_view *view, const plr_cast *cast);
+/* Whether the surface meets the box of one of its volumes. */
+bool plr_cast_meets(const plr_view *view, const plr_cast *cast, const plr_surface *surface);
 /* Finds the depths of the casts in this frame and sorts them, the farthest first. */
 void plr_volume_depths(plr_view *view, const plr_frame *frame);
 /* Samples along all rays of this frame when none ends early. */
 double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame);
 void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame);
+/* Some of its faces; `depths`: their depths alone, into a framebuffer without colours. */
+typedef enum plr_faces {
+    PLR_FACES_ALL,
+    PLR_FACES_BACK,
+    PLR_FACES_FRONT
+} plr_faces;
+void plr_surface_draw_faces(plr_view *view, plr_surface *surface, const plr_frame *frame,
+                            plr_faces faces, bool depths);
 /* Bounds of the surfaces along the view direction: least and greatest distance from the eye's
  * plane. */
 void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, double depths[2]);

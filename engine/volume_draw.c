@@ -14,6 +14,7 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame) {
     for (size_t i = 0; i < pass->cast_count; i++) {
         plr_cast *cast = &pass->casts[i];
         cast->depth = INFINITY;
+        cast->drawn = false;
         for (size_t k = 0; k < cast->count; k++) {
             plr_matrix to_eye =
                 plr_matrix_multiply(&frame->view, &pass->volumes[cast->members[k]].to_world);
@@ -29,8 +30,10 @@ void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame)
     if (!cast->pass.built)
         return;
     const plr_gl *gl = &view->engine->gl;
-    gl->Disable(GL_DEPTH_TEST);
-    gl->DepthMask(GL_FALSE);
+    /* what writes depths has found the nearest itself */
+    (cast->writes_depth ? gl->Enable : gl->Disable)(GL_DEPTH_TEST);
+    gl->DepthFunc(GL_ALWAYS);
+    gl->DepthMask(cast->writes_depth);
     gl->Disable(GL_CULL_FACE);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

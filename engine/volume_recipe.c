@@ -35,10 +35,11 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
 
 static void add_plane(plr_view *view, plr_recipe *recipe, plr_node *plane, const plr_matrix *place,
                       size_t volume, size_t attached) {
+    static const plr_define in_volume = {"VOLUME", "1"};
     plr_recipe_builtin(
         &view->kitchen, recipe, "fog/ClipPlane", "ClipPlane",
         (plr_binding){.node = plane, .to_world = *place, .place = place, .volume = volume},
-        attached, NULL, 0);
+        attached, &in_volume, 1);
 }
 
 /* The volume's own planes, in the node's coordinates, and those of the scene around it. */
@@ -125,8 +126,17 @@ static bool has_kind(const plr_view *view, const plr_cast *cast, bool events) {
     return false;
 }
 
+static bool any_writes_depth(const plr_view *view, const plr_cast *cast) {
+    for (size_t i = 0; i < cast->count; i++)
+        if (plr_node_bool(view->volumes.volumes[cast->members[i]].node, "writeDepth"))
+            return true;
+    return false;
+}
+
 static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
     plr_recipe *recipe = &cast->pass.recipe;
+    cast->writes_depth = !cast->picks && any_writes_depth(view, cast);
+    cast->divided = !cast->picks && plr_cast_is_divided(view, cast);
     bool events = has_kind(view, cast, true);
     double cut[2];
     plr_viewpoint_cut(view->viewpoint, cut);
@@ -137,7 +147,10 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
         {"HAS_EVENTS", events},
         {"HAS_STEPS", has_kind(view, cast, false)},
-        {"HAS_OPAQUE", view->flat.shapes.count > 0 || view->desc.host_depths},
+        {"HAS_OPAQUE", view->flat.shapes.count > 0 || view->desc.host_depths || cast->writes_depth},
+        {"HAS_PARTS", cast->divided},
+        {"WRITES_DEPTH", cast->writes_depth},
+        {"PICKS", cast->picks},
         {"EARLY_END", early_end},
         {"HAS_CUT", cut[0] > 0 || isfinite(cut[1])},
         {"CASTLE_GLSL_VERSION_UPGRADE", 1},

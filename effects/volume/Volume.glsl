@@ -15,6 +15,9 @@ vec3 ray_direction;
 float ray_speed;
 float enter;
 float leave;
+#if HAS_PARTS
+float whole_enter;
+#endif
 
 #if PLUG_USED(fog_apply)
 vec4 sample_place; /* where fog looks, in eye space */
@@ -36,6 +39,15 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
     leave = min(leave, t_exit);
 #endif
     ray_begins(origin_eye, direction_eye);
+#if WRITES_DEPTH && writeDepth
+    if (enter < leave)
+        written_end = max(written_end, leave);
+#endif
+#if HAS_PARTS
+    whole_enter = enter;
+    enter = max(enter, part_start);
+    leave = min(leave, part_end);
+#endif
 #if MIXES
     if (!(enter < leave))
         enter = leave = 0.0;
@@ -60,9 +72,15 @@ void PLUG_volume_part(inout float t, inout float t_next, inout float step_length
         t_next = min(t_next, enter);
     }
 #else
-    t = enter;
     t_next = leave;
     step_length = sampleDistance / ray_speed;
+#if HAS_PARTS
+    t = leave;
+    if (enter < leave)
+        t = whole_enter + floor((enter - whole_enter) / step_length) * step_length;
+#else
+    t = enter;
+#endif
 #endif
 }
 

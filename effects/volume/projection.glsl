@@ -82,6 +82,13 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
         before_t = t;
 #endif
     }
+#if HAS_PARTS
+    if (event_t < part_start || event_t >= part_end) {
+        event_t = NOWHERE;
+        enter = leave = 0.0;
+        return;
+    }
+#endif
     /* the ray meets the layer where it was found and nothing of the volume elsewhere */
     enter = event_t;
     leave = enter + max(1.0e-6 * abs(enter), 1.0e-3 * sampleDistance / ray_speed);
@@ -100,6 +107,9 @@ void PLUG_volume_meet(inout bool met, inout vec4 color, inout VolumeSample s, co
     if (met || event_t != t)
         return;
     met = true;
+#if PICKS
+    met_volume = volumeIndex;
+#endif
     event_t = NOWHERE;
     sample_at(s, t, 0.0, origin_eye, direction_eye);
     color = vec4(vec3(intensity), intensity_alpha);

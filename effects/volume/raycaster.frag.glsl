@@ -36,11 +36,11 @@ float part_end = NOWHERE; /* where it is not the end of the ray */
 #endif
 #if EARLY_END
 /* Whether nothing behind can be seen any more; of a ray that picks, whether something is seen. */
-bool is_ended(vec4 accumulated) {
+bool is_ended(float alpha) {
 #if PICKS
-    return accumulated.a >= 1.0 / 255.0;
+    return alpha >= 1.0 / 255.0;
 #else
-    return 1.0 - accumulated.a < transparencyLeft;
+    return 1.0 - alpha < transparencyLeft;
 #endif
 }
 #endif
@@ -58,9 +58,9 @@ vec2 picked;
 float ended_at = NOWHERE;
 
 /* Notes where the ray ends. */
-void note_end(vec4 accumulated, float t) {
+void note_end(float alpha, float t) {
 #if EARLY_END
-    if (ended_at < NOWHERE || !is_ended(accumulated))
+    if (ended_at < NOWHERE || !is_ended(alpha))
         return;
     ended_at = t;
 #if PICKS
@@ -173,7 +173,7 @@ void main() {
 #elif HAS_PARTS
             /* steps stay where they are along the whole ray; those at its ends are shortened */
             from = max(from, part_start);
-            float span = (i == steps - 1 ? t_next : t + float(i + 1) * step_length) - from;
+            float span = max((i == steps - 1 ? t_next : t + float(i + 1) * step_length) - from, 0.0);
 #else
             /* the last step is shortened: lengths add up to the part */
             float span = i == steps - 1 ? t_next - from : step_length;
@@ -210,7 +210,7 @@ void main() {
                 depth = t_middle;
 #endif
 #if WRITES_DEPTH || PICKS
-            note_end(accumulated, t_middle);
+            note_end(accumulated.a, t_middle);
 #endif
 #if MIXES && HAS_EVENTS
             }
@@ -229,23 +229,23 @@ void main() {
                     depth = event;
 #endif
 #if WRITES_DEPTH || PICKS
-                note_end(accumulated, event);
+                note_end(accumulated.a, event);
 #endif
                 from = max(from, event);
 #if EARLY_END
-                if (is_ended(accumulated))
+                if (is_ended(accumulated.a))
                     break;
 #endif
             }
 #endif
 #if EARLY_END
-            if (is_ended(accumulated))
+            if (is_ended(accumulated.a))
                 break;
 #endif
         }
 #if MIXES
 #if EARLY_END
-        ended = is_ended(accumulated);
+        ended = is_ended(accumulated.a);
 #endif
         t = t_next;
     }

@@ -20,11 +20,22 @@ void PLUG_volume_mix(inout VolumeMix mixed, const in float t, const in float spa
     VolumeSample s;
     step_color(color, s, t, span, origin_eye, direction_eye);
     volume_mix_add(mixed, color, span * ray_speed / referenceLength);
+#if PICKS
+    float depth = color.a < 1.0 ? -log(1.0 - color.a) * span * ray_speed / referenceLength : NOWHERE;
+    if (depth > met_depth) {
+        met_depth = depth;
+        met_volume = volumeIndex;
+        met_surface = -1;
+    }
+#endif
 }
 #else
 void PLUG_volume_step(out vec4 color, out VolumeSample s, const in float t, const in float span,
                       const in vec3 origin_eye, const in vec3 direction_eye) {
     step_color(color, s, t, span, origin_eye, direction_eye);
+#if PICKS
+    met_volume = volumeIndex;
+#endif
     /* opacity of this step: 1 - (1 - alpha)^(length / reference); opaque stays opaque */
     if (color.a < 1.0)
         color.a = opacity_of_depth(-log(1.0 - color.a) * span * ray_speed / referenceLength);

@@ -87,6 +87,10 @@ void PLUG_volume_meet(inout bool met, inout vec4 color, inout VolumeSample s, co
     if (met || event_t != t)
         return;
     met = true;
+#if PICKS
+    met_volume = volumeIndex;
+    met_surface = int(surfaces[event_surface].y);
+#endif
     sample_at(s, t, 0.0, origin_eye, direction_eye);
     surface_sample(s, ray_origin + t * ray_direction, event_surface);
     color = voxel_color(s.value);

@@ -266,14 +266,30 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
 static const plr_define on_no_volume[] = {{"VOLUME", "0"}};
 static const plr_define fog_of_volume[] = {
     {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "0"}, {"VOLUME", "1"}};
-static const plr_define one_volume[] = {{"MIXES", "0"},     {"HAS_EVENTS", "0"},
-                                        {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
-                                        {"EARLY_END", "1"}, {"HAS_CUT", "0"}};
-static const plr_define two_volumes[] = {{"MIXES", "1"},     {"HAS_EVENTS", "0"},
-                                         {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
-                                         {"EARLY_END", "0"}, {"HAS_CUT", "1"}};
+#define WHOLE_RAYS                                                                                 \
+    {"HAS_PARTS", "0"}, {"WRITES_DEPTH", "0"}, {                                                   \
+        "PICKS", "0"                                                                               \
+    }
+static const plr_define one_volume[] = {
+    {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS};
+static const plr_define two_volumes[] = {
+    {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
+    {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS};
 static const plr_define surfaces[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"}, {"HAS_STEPS", "0"},
-                                      {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"}};
+                                      {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
+                                      WHOLE_RAYS};
+static const plr_define one_in_parts[] = {
+    {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    {"HAS_PARTS", "1"}, {"WRITES_DEPTH", "1"},
+    {"PICKS", "0"},     {"writeDepth", "1"}};
+static const plr_define all_in_parts[] = {
+    {"MIXES", "1"},     {"HAS_EVENTS", "1"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
+    {"EARLY_END", "0"}, {"HAS_CUT", "1"},    {"HAS_PARTS", "1"}, {"WRITES_DEPTH", "1"},
+    {"PICKS", "0"},     {"writeDepth", "1"}};
+static const plr_define picks[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"},   {"HAS_STEPS", "1"},
+                                   {"HAS_OPAQUE", "1"}, {"EARLY_END", "1"},    {"HAS_CUT", "0"},
+                                   {"HAS_PARTS", "0"},  {"WRITES_DEPTH", "0"}, {"PICKS", "1"}};
 static const plr_define scalar[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "0"}};
 static const plr_define labelled[] = {
@@ -588,6 +604,28 @@ static const recipe recipes[] = {
       {.path = "lights/SpotLight"}},
      DEFINES(one_volume),
      .present = "normal_eye MaterialInfo"},
+    {"one volume in parts",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)}, {.path = "volume/Composite"}},
+     DEFINES(one_in_parts),
+     .present = "partStart partEnd gl_FragDepth"},
+    {"volumes in parts",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = SURFACES, DEFINES(scalar)},
+      {.path = PROJECTED, DEFINES(greatest)},
+      {.path = "volume/Composite"}},
+     DEFINES(all_in_parts),
+     .present = "partStart partEnd gl_FragDepth"},
+    {"a ray that picks",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = SURFACES, DEFINES(scalar)},
+      {.path = PROJECTED, DEFINES(greatest)},
+      {.path = "volume/Composite"}},
+     DEFINES(picks),
+     .present = "picked",
+     .absent = "partStart gl_FragDepth transparencyLeft"},
     {"boundary enhancement",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},
