@@ -51,6 +51,21 @@ def volumes():
 
 
 @suite.case
+def visible():
+    "a volume that is not visible is not there, and comes and goes in time"
+    opaque = constant(255, (2, 2, 2))
+    for fields, expected in (("visible FALSE", NOTHING), ("visible TRUE", WHITE)):
+        look(fields, volume(opaque, fields=fields), {(0.05, 0.05): expected})
+    timed = "DEF V " + volume(opaque) + (
+        "DEF T TimeSensor { loop TRUE cycleInterval 2 }\n"
+        "DEF B BooleanSequencer { key [0 0.5] keyValue [TRUE FALSE] }\n"
+        "ROUTE T.fraction_changed TO B.set_fraction ROUTE B.value_changed TO V.visible\n")
+    for time, color in ((0.5, WHITE), (1.5, NOTHING)):
+        got = suite.probe(front_scene(timed), [at(0.05, 0.05)], "--time", time, size="20x20")[0]
+        suite.close(f"at {time}", got, color)
+
+
+@suite.case
 def ends_rays():
     "a box hides what is behind it, volumes included"
     opaque = constant(255, (2, 2, 2))
@@ -97,7 +112,6 @@ def plain():
     look("no effects", moved(black + volume(EMPTY, fields="bboxDisplay TRUE"), HALF), {(0.55, 0.05): WHITE})
     timed = moved("DEF V " + volume(EMPTY), HALF) + (
         "DEF T TimeSensor { loop TRUE cycleInterval 2 }\n"
-        "DEF S IntegerSequencer { key [0 0.5] keyValue [0 1] }\n"
         "DEF B BooleanSequencer { key [0 0.5] keyValue [FALSE TRUE] }\n"
         "ROUTE T.fraction_changed TO B.set_fraction ROUTE B.value_changed TO V.bboxDisplay\n")
     for time, color in ((0.5, NOTHING), (1.5, WHITE)):
