@@ -9,17 +9,29 @@
 
 /* ---- Which volumes there are ---- */
 
+static void check_projection(const plr_node *style, plr_diags *diags) {
+    static const char *const types[] = {"MAX", "MIN", "AVERAGE"};
+    const char *type = plr_node_string(style, "type");
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (strcmp(type, types[i]) == 0)
+            return;
+    plr_diags_add_as(diags, PLR_WARNING, PLR_CODE_BAD_VALUE, plr_node_field(style, "type")->place,
+                     "'%s' is no type of projection; MAX is taken", type);
+}
+
 static void find_kind(plr_view *view, plr_volume_state *state, plr_diags *diags) {
     const plr_node *style = plr_node_child(state->node, "renderStyle");
     if (plr_node_is(state->node, "VolumeData") && style &&
-        plr_node_is(style, "ProjectionVolumeStyle"))
+        plr_node_is(style, "ProjectionVolumeStyle")) {
         state->kind = PLR_VOLUME_PROJECTED;
-    else
+        check_projection(style, diags);
+    } else {
         plr_volume_find_surfaces(view, state, diags);
+    }
 }
 
 /* Keeps the volumes that have data and an enabled style. */
-static void find_usable(plr_view *view, plr_diags *diags) {
+void plr_volume_pass_find(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
     size_t leaf_count = view->flat.volumes.count;
     pass->volumes = PLR_NEW_ARRAY(&view->arena, leaf_count + 1, plr_volume_state);
@@ -35,6 +47,7 @@ static void find_usable(plr_view *view, plr_diags *diags) {
         state->index = pass->count;
         pass->leaves[pass->count++] = leaf;
     }
+    plr_volume_find_shadows(view);
 }
 
 /* ---- Layers ---- */
@@ -184,7 +197,6 @@ static void make_default_ramp(plr_view *view) {
 
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
-    find_usable(view, diags);
     if (!pass->count)
         return;
     pass->casts = PLR_NEW_ARRAY(&view->arena, pass->count + 1, plr_cast);

@@ -42,9 +42,8 @@ static void add_plane(plr_view *view, plr_recipe *recipe, plr_node *plane, const
         attached, &in_volume, 1);
 }
 
-/* The volume's own planes, in the node's coordinates, and those of the scene around it. */
-static void add_planes(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, size_t volume,
-                       size_t attached) {
+void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached) {
+    const plr_leaf *leaf = view->volumes.leaves[volume];
     const plr_field *own = plr_node_field(leaf->node, "clipPlanes");
     for (size_t i = 0; own && i < own->count; i++)
         if (own->value.nodes[i] && plr_node_bool(own->value.nodes[i], "enabled"))
@@ -77,7 +76,7 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, size_t 
     const plr_volume_state *state = &view->volumes.volumes[index];
     const plr_leaf *leaf = view->volumes.leaves[index];
     *attached = add_volume_effect(view, recipe, state);
-    add_planes(view, recipe, leaf, index, *attached);
+    plr_volume_add_planes(view, recipe, index, *attached);
     plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, diags);
     add_fog(view, recipe, leaf, index, *attached);
     size_t from = recipe->effects.count;
@@ -168,6 +167,10 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
     for (size_t i = 0; i < cast->count; i++)
         add_volume(view, recipe, cast->members[i], &attached[i], diags);
+    bool skips_clear = true;
+    for (size_t i = 0; i < cast->count; i++)
+        skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);
+    plr_recipe_volume_shadows(view, recipe, skips_clear);
     plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
                        (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
     plr_recipe_attached_authors(&view->kitchen, recipe, "X3DLightNode");

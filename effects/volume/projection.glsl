@@ -34,6 +34,37 @@ vec4 value_on_ray(const in float t, const in float span, const in vec3 origin_ey
 #endif
 }
 
+#if !defined(renderStyle_type_AVERAGE)
+/* A peak lies between samples as a rule: golden section search between the neighbours of the best one
+ * (Kiefer, Proc. AMS 4, 1953). */
+void refine(const in float span, const in vec3 origin_eye, const in vec3 direction_eye) {
+    const float GOLDEN = 0.61803399;
+    float a = max(event_t - span, enter), b = min(event_t + span, leave);
+    for (int i = 0; i < 10; i++) {
+        float c = b - GOLDEN * (b - a), d = a + GOLDEN * (b - a);
+        vec4 at_c = value_on_ray(c, span, origin_eye, direction_eye);
+        vec4 at_d = value_on_ray(d, span, origin_eye, direction_eye);
+        float here = voxel_scalar(at_c), there = voxel_scalar(at_d);
+#if defined(renderStyle_type_MIN)
+        bool first = here < there;
+        bool better = min(here, there) < intensity;
+#else
+        bool first = here > there;
+        bool better = max(here, there) > intensity;
+#endif
+        if (better) {
+            intensity = first ? here : there;
+            intensity_alpha = own_alpha(first ? at_c : at_d);
+            event_t = first ? c : d;
+        }
+        if (first)
+            b = d;
+        else
+            a = c;
+    }
+}
+#endif
+
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     event_t = NOWHERE;
     if (!(enter <= leave))
@@ -82,6 +113,9 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
         before_t = t;
 #endif
     }
+#if !defined(renderStyle_type_AVERAGE)
+    refine(span, origin_eye, direction_eye);
+#endif
 #if HAS_PARTS
     if (event_t < part_start || event_t >= part_end) {
         event_t = NOWHERE;
