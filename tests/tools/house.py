@@ -59,7 +59,7 @@ check_equal((lines[-1], status), ("0 passed, 0 failed, 1 skipped", 1), "no check
 
 packages = [line.split() for line in (root / "tools/packages.txt").read_text().splitlines()
             if line and not line.startswith("#")]
-check(all(re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", row[0]) and row[1:] in ([], ["checks"])
+check(all(re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", row[0]) and row[1:] in ([], ["checks"], ["bench"])
           for row in packages), "each row of tools/packages.txt is a package", packages)
 rows = [line.split() for line in (root / "tools/data.txt").read_text().splitlines()
         if line and not line.startswith("#")]
