@@ -115,6 +115,17 @@ def silhouette_fields():
     styles.draw()
 
 
+@suite.case
+def silhouette_2005():
+    "Silhouette as in 2005: Og = Ov (1 - |n.V|)^silhouetteFactor"
+    styles = Styles(suite)
+    for factor in (0.5, 2):
+        styles.add(f"factor {factor}", f"SilhouetteEnhancementVolumeStyle {{ silhouetteFactor {factor} }}",
+                   TINT, OPACITY * (1 - FACING) ** factor)
+    styles.add("its default", "SilhouetteEnhancementVolumeStyle { }", TINT, OPACITY * (1 - FACING) ** 0.5)
+    styles.draw()
+
+
 STRONG = "SilhouetteEnhancementVolumeStyle { silhouetteRetainedOpacity .1 silhouetteBoundaryOpacity .8 }"
 VALUES = {"retained": 0.1, "boundary": 0.8}
 
