@@ -125,9 +125,21 @@ static bool has_kind(const plr_view *view, const plr_cast *cast, bool events) {
     return false;
 }
 
+static bool writes_depth(const plr_volume_state *state) {
+    return plr_node_bool(state->node, "writeDepth");
+}
+
+/* Whether there are depths to stop at: of surfaces, of the host, of volumes cast before. */
+static bool has_depths(const plr_view *view) {
+    bool any = view->flat.shapes.count > 0 || view->desc.host_depths;
+    for (size_t i = 0; i < view->volumes.count; i++)
+        any = any || writes_depth(&view->volumes.volumes[i]);
+    return any;
+}
+
 static bool any_writes_depth(const plr_view *view, const plr_cast *cast) {
     for (size_t i = 0; i < cast->count; i++)
-        if (plr_node_bool(view->volumes.volumes[cast->members[i]].node, "writeDepth"))
+        if (writes_depth(&view->volumes.volumes[cast->members[i]]))
             return true;
     return false;
 }
@@ -146,7 +158,7 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
         {"HAS_EVENTS", events},
         {"HAS_STEPS", has_kind(view, cast, false)},
-        {"HAS_OPAQUE", view->flat.shapes.count > 0 || view->desc.host_depths || cast->writes_depth},
+        {"HAS_OPAQUE", has_depths(view)},
         {"HAS_PARTS", cast->divided},
         {"WRITES_DEPTH", cast->writes_depth},
         {"PICKS", cast->picks},
