@@ -182,6 +182,28 @@ static void test_labels(void) {
     free(many);
 }
 
+/* Of a node of a scene, as a host asks. */
+static void test_node(void) {
+    static const char text[] =
+        "#X3D V3.3 utf8\n"
+        "VolumeData { voxels DEF A PixelTexture3D { image 2 2 1 2 0x0107 0x0207 0x0307 0x0907 } }\n"
+        "VolumeData { voxels DEF B ImageTexture3D { url \"nowhere.nrrd\" } }\n";
+    plr_diags *diags = plr_diags_create(NULL);
+    plr_scene *scene = plr_scene_parse(text, sizeof text - 1, "scene.x3dv", NULL, diags);
+    plr_volume_statistics s;
+    CHECK(plr_volume_read_statistics(scene, plr_scene_find(scene, "A"), 0, &s, diags));
+    CHECK(s.minimum == 1 && s.maximum == 9 && s.percentiles[4] == 2 && s.finite == 4);
+    CHECK(plr_volume_read_statistics(scene, plr_scene_find(scene, "A"), 1, &s, diags));
+    CHECK(s.minimum == 7 && s.maximum == 7);
+    CHECK_INT(plr_diags_count(diags), 0);
+    CHECK(!plr_volume_read_statistics(scene, plr_scene_find(scene, "A"), 2, &s, diags));
+    CHECK(!plr_volume_read_statistics(scene, plr_scene_find(scene, "B"), 0, &s, diags));
+    CHECK_INT(plr_diags_count(diags), 1);
+    CHECK(s.finite == 0 && s.bins == 0);
+    plr_scene_destroy(&scene);
+    plr_diags_destroy(&diags);
+}
+
 int main(void) {
     test_percentiles();
     test_statistics();
@@ -189,5 +211,6 @@ int main(void) {
     test_extremes();
     test_threshold();
     test_labels();
+    test_node();
     return tap_done();
 }
