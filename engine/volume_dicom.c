@@ -34,6 +34,7 @@ typedef struct collection {
     /* the file whose frames are read */
     plr_dicom *open;
     uint32_t open_file;
+    size_t frames_read;
 } collection;
 
 static bool fail(const collection *all, const char *name, const char *why) {
@@ -51,6 +52,12 @@ static bool no_memory(const collection *all) {
 static const char *file_name(const void *user, uint32_t index) {
     const collection *all = user;
     return all->files[index].name;
+}
+
+/* Half of the way are the headers, half are the frames. */
+static void tell(const collection *all, double done) {
+    if (all->source->progress)
+        all->source->progress(all->source->user, all->source->name, done);
 }
 
 /* ---- Bytes ---- */
@@ -135,8 +142,11 @@ static bool collect_folder(collection *all) {
         return fail(all, source->name, "the folder is empty");
     if (!allocate(all, count))
         return false;
-    for (const char *name = source->data; name < end; name += strlen(name) + 1)
+    size_t done = 0;
+    for (const char *name = source->data; name < end; name += strlen(name) + 1) {
         collect_file(all, name);
+        tell(all, (double)++done / (double)count / 2);
+    }
     if (all->unreadable)
         plr_diags_add_as(source->diags, PLR_WARNING, PLR_CODE_BAD_VOLUME, source->place,
                          "%zu files of %s cannot be read, among them %s", all->unreadable,
@@ -228,6 +238,7 @@ static bool read_frame(void *user, const plr_dicom_slice *slice, void *out, size
     char fault[PLR_DICOM_FAULT] = "";
     if ((!all->open || all->open_file != slice->file) && !open_file(all, slice->file))
         return false;
+    tell(all, 0.5 + (double)++all->frames_read / (double)all->slices.count / 2);
     return plr_dicom_frame(all->open, slice->format.pixels, slice->frame, out, size, photometric,
                            fault) ||
            fail(all, all->files[slice->file].name, fault);

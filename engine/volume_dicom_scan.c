@@ -229,7 +229,8 @@ static const char *walk_set(walker *w, plr_dicom_set *set) {
 
 /* A data set begins with identifying elements (group 8), often after group 2. */
 static bool looks_like_elements(const unsigned char *data, size_t length) {
-    static const unsigned char first[] = {0x00, 0x01, 0x05, 0x06, 0x08, 0x12, 0x13, 0x14, 0x16};
+    static const unsigned char first[] = {0x00, 0x01, 0x05, 0x06, 0x08,
+                                          0x12, 0x13, 0x14, 0x16, 0x18};
     if (length < 16 || data[0] != 8 || data[1] != 0 || data[3] != 0)
         return false;
     bool known = memchr(first, data[2], sizeof first) != NULL;
