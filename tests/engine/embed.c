@@ -35,6 +35,16 @@ static const char targets_text[] =
     "4.5, "
     "-4.5 -1 4.5, -4.5 1 4.5, -5 1 4.5 ] } } }\n";
 
+/* The same volume with a translucent square inside, at z = 0.5; rays leave their depth. */
+static const char divided_text[] =
+    "#X3D V4.0 utf8\nPROFILE Immersive\nNavigationInfo { headlight FALSE }\n"
+    "VolumeData { dimensions 2 2 2 writeDepth TRUE voxels PixelTexture3D { image [ 1 2 2 2 255 255 "
+    "255 255 255 255 255 255 ] } renderStyle OpacityMapVolumeStyle { transferFunction PixelTexture "
+    "{ image 1 1 4 0xff000080 } } }\n"
+    "Shape { appearance Appearance { material UnlitMaterial { emissiveColor 0 1 0 transparency 0.5 "
+    "} } geometry IndexedFaceSet { coordIndex [ 0 1 2 3 ] coord Coordinate { point [ -.7 -.7 0.5, "
+    ".7 -.7 0.5, .7 .7 0.5, -.7 .7 0.5 ] } } }\n";
+
 /* The camera stands at z = 2. */
 static const double camera[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1};
 /* Parallel, distances -4 to 4 from the camera: z = 0, at distance 2, is 0.75 in the depth buffer.
@@ -114,6 +124,27 @@ static void check_volume(const plr_gl *gl) {
     check_pixel(gl, 14, 16, (double[]){half, 0, 1 - half, 1});
 }
 
+static void check_depth(const plr_gl *gl, int x, int y, double expected) {
+    GLfloat depth = -1;
+    gl->ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+    CHECK_NEAR(depth, expected, 1e-6);
+}
+
+/* Half a voxel before the square; behind it one and a half, or half a one up to the host's wall. */
+static void check_divided(const plr_gl *gl) {
+    const double left = 1 - 128.0 / 255, near = sqrt(left);
+    for (int x = 14; x <= 18; x += 4) {
+        double behind = x < 16 ? near : near * left, through = near * 0.5 * behind;
+        double red = (1 - near) + near * 0.5 * (1 - behind), green = near * 0.5;
+        check_pixel(gl, x, 16, (double[]){red, green, through, 1});
+    }
+    check_depth(gl, 14, 16, 0.75);  /* the host's */
+    check_depth(gl, 18, 16, 0.875); /* z = -1, where rays leave the volume */
+    check_depth(gl, 19, 19, 0.875);
+    check_depth(gl, 22, 22, 1);
+    check_depth(gl, 2, 16, 0.75);
+}
+
 static void check_targets(const plr_gl *gl) {
     check_pixel(gl, 15, 16, (double[]){0, 0.5 * sqrt(0.5), 0, 1});
     check_pixel(gl, 12, 16, (double[]){0, 0, 0, 1});
@@ -152,6 +183,10 @@ int main(void) {
         TAP_SKIP("a host draws", "there is no GL");
     else
         run(context, scene_text, check_volume);
+    plr_context_destroy(&context);
+    context = plr_context_create(PLR_BACKEND_AUTO, NULL);
+    if (context)
+        run(context, divided_text, check_divided);
     plr_context_destroy(&context);
     context = plr_context_create(PLR_BACKEND_AUTO, NULL); /* a host without that one's odd state */
     if (context)
