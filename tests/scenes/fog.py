@@ -203,17 +203,6 @@ def many_planes():
 
 
 @suite.case
-def volumes_in_fog():
-    "fog and planes that reach a volume are told of: they are not drawn in volumes"
-    smoke = ("VolumeData { dimensions 1 1 1 voxels PixelTexture3D { image [1 1 1 1 128] } "
-             "renderStyle OpacityMapVolumeStyle { } }")
-    text = front_scene("Fog { visibilityRange 9 }\nGroup { children [ ClipPlane { }\n%s ] }\n" % smoke,
-                       "Group { children LocalFog { } }")
-    found = suite.render(text, "-o", "a.png").messages()
-    suite.equal("", [(m[1], m[5]) for m in found], [(5, "not-drawn"), (6, "not-drawn")])
-
-
-@suite.case
 def unlit_in_fog():
     "nodes that are not there cost nothing: no fog, no plane in the program without them"
     text = front_scene("Group { children LocalFog { visibilityRange 1 } }", quad(GREEN))

@@ -1,134 +1,187 @@
 #!/usr/bin/env python3
-"""Crop boxes, clip planes and fog of volumes."""
+"""Clip planes, of the scene and of single volumes, crop boxes and fog: what is left of a ray."""
 
 import math
 
-from harness import Suite, opacity, over, premultiplied
-from scenes import FRONT, NO_HEADLIGHT, constant, effect, front_scene, scene, volume, voxels
+from harness import Suite, opacity, premultiplied
+from scenes import constant, front_scene, volume
 
 suite = Suite()
 
-RED = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 1 1 4 0xFF000080 } }"
-A = 128 / 255
+VALUE = 0.2  # of every voxel; colour and opacity after half the box
+UNIT = 0.5
+DATA = constant(51, (2, 2, 2))
 
 
-def cube(fields="", style=RED, data=constant(9, (3, 3, 3))):
-    return volume(data, style, fields="opacityUnitDistance 1 " + fields)
+def left(length):
+    return premultiplied((VALUE,) * 3, opacity(VALUE, length, UNIT))
 
 
-def slab(length):
-    return premultiplied((1, 0, 0), opacity(A, length, 1))
+def plane(a, b, c, d, fields=""):
+    return f"ClipPlane {{ plane {a} {b} {c} {d} {fields} }}\n"
 
 
-@suite.case
-def crop():
-    "cropMin and cropMax in texture coordinates: each of six sides; what is outside the box is cut at the box"
-    for fields, length in (("cropMin 0 0 .3", 0.7), ("cropMax 1 1 .4", 0.4), ("cropMin 0 0 .2 cropMax 1 1 .9", 0.7),
-                           ("cropMin -5 -5 -5 cropMax 7 7 7", 1), ("cropMin 0 0 .6 cropMax 1 1 .5", 0),
-                           ("cropMin .6 0 0", 0), ("cropMax .4 1 1", 0), ("cropMin 0 .6 0", 0), ("cropMax 1 .4 1", 0)):
-        for step in ("0.3", "1.3"):
-            got = suite.middle(front_scene(cube(fields)), "--step", step)
-            suite.close(f"{fields}, step {step}", got, slab(length))
-    halves = cube("cropMax .5 1 1") + cube("cropMin .5 0 0")
-    whole = suite.picture(front_scene(cube()), "--size", "24x24")
-    split = suite.picture(front_scene(halves), "--size", "24x24")
-    most = max(abs(a - b) for a, b in zip(whole.values, split.values))
-    suite.check("two halves are the whole", most < 2e-6, most)
+def group(*parts, fields=""):
+    return f"Transform {{ {fields} children [\n{''.join(parts)}] }}\n"
 
 
-@suite.case
-def split_obliquely():
-    "one box split by crop boxes, seen obliquely, is the box"
-    view = "OrthoViewpoint { position 7 5 9 orientation -0.5 0.75 0.1 0.86 fieldOfView -1 -1 1 1 }\n"
-    data = voxels(1, (4, 4, 4), [(i * 37) % 200 for i in range(64)])
-    def draw(*parts):
-        return suite.picture(scene(view, NO_HEADLIGHT, *parts), "--size", "32x32", "--step", "0.01")
-    whole = draw(cube(data=data, style=""))
-    parts = [cube(f"cropMin {x / 2} {y / 2} 0 cropMax {x / 2 + .5} {y / 2 + .5} 1", data=data, style="") for x in (0, 1) for y in (0, 1)]
-    split = draw(*parts)
-    most = max(abs(a - b) for a, b in zip(whole.values, split.values))
-    suite.check("something is seen", max(whole.values) > 0.2, max(whole.values))
-    suite.check("the same", most < 2e-3, most)
+def ahead(rows):
+    """The ray through the middle, along -z: name, content, the length that is left."""
+    for name, content, length in rows:
+        suite.close(name, suite.middle(front_scene(content)), left(length))
+
+
+NEAR, FAR = plane(0, 0, -1, 0), plane(0, 0, 1, 0)  # the halves that they take away
+CUBE = volume(DATA)
 
 
 @suite.case
-def own_planes():
-    "clipPlanes: any number, in the volume's own coordinates; disabled ones cut nothing"
-    def planes(*texts):
-        return "clipPlanes [ " + " ".join(f"ClipPlane {{ {t} }}" for t in texts) + " ]"
-    for texts, length in ((["plane 0 0 1 .2"], 0.7), (["plane 0 0 -1 .2"], 0.7), (["plane 0 0 1 .2", "plane 0 0 -1 .1"], 0.3),
-                          (["plane 0 0 1 .2 enabled FALSE"], 1), (["plane 1 0 0 -.3"], 0), (["plane 1 0 0 .3"], 1),
-                          (["plane 0 0 5 1"], 0.7), ([f"plane 0 0 1 {i / 100}" for i in range(50)], 0.5)):
-        got = suite.middle(front_scene(cube(planes(*texts))))
-        suite.close(f"{texts[:2]} of {len(texts)}", got, slab(length))
-    moved = f"Transform {{ scale 1 1 2 translation 0 0 .5 children {cube(planes('plane 0 0 1 .2'))} }}\n"
-    suite.close("scaled: the plane goes with the volume", suite.middle(front_scene(moved)), slab(0.7))
+def halves():
+    "T21: the optical depth is that of the length that a plane leaves, on either side"
+    ahead((
+        ("the near half", group(NEAR, CUBE), 0.5),
+        ("the far half", group(FAR, CUBE), 0.5),
+        ("a quarter of the far side", group(plane(0, 0, 1, 0.25), CUBE), 0.75),
+        ("a plane of another length", group(plane(0, 0, -3, 0.3), CUBE), 0.6),
+        ("a plane beyond", group(plane(0, 0, 1, 0.7), CUBE), 1),
+        ("a plane that leaves nothing", group(plane(0, 0, 1, -0.7), CUBE), 0),
+        ("along the ray, on this side", group(plane(1, 0, 0, 0.1), CUBE), 1),
+        ("along the ray, on the other", group(plane(1, 0, 0, -0.1), CUBE), 0),
+        ("disabled", group(plane(0, 0, 1, 0, "enabled FALSE"), CUBE), 1),
+        ("two", group(plane(0, 0, 1, 0.2), plane(0, 0, -1, 0.1), CUBE), 0.3),
+        ("two that leave nothing", group(plane(0, 0, 1, -0.2), plane(0, 0, -1, -0.1), CUBE), 0),
+        ("in groups around", group(FAR, group(plane(0, 0, -1, 0.1), group(CUBE))), 0.1),
+        ("elsewhere", group(FAR) + CUBE, 1),
+        ("turned round with its group", group(plane(0, 0, 1, 0.2), CUBE, fields="rotation 0 1 0 3.14159265"), 0.7),
+        ("its place is that of its group", group(FAR, group(CUBE, fields="translation 0 0 0.25")), 0.75),
+    ))
 
 
 @suite.case
 def oblique():
-    "T21: an oblique plane under a scale of 2 1 1"
-    text = f"Transform {{ scale 2 1 1 children [ ClipPlane {{ plane 1 0 1 0 }} {cube()} ] }}\n"
-    size = 32
-    pixels = [(8, 16), (16, 16), (24, 16), (28, 16)]
-    for (x, y), got in zip(pixels, suite.probe(front_scene(text), pixels, size=f"{size}x{size}")):
-        own = ((x + 0.5) / size * 2 - 1) / 2  # in the volume's own coordinates
-        suite.close(f"column {x}", got, slab(min(max(0.5 + own, 0), 1) if abs(own) < 0.5 else 0))
+    "T21: an oblique plane, and under scale 2 1 1"
+    pixels = [(i, 4) for i in range(2, 6)]
+    places = [-0.375, -0.125, 0.125, 0.375]
+    for name, content, scale in (
+        ("oblique", group(plane(1, 0, 1, 0), CUBE), 1),
+        ("scaled", group(plane(1, 0, 1, 0), CUBE, fields="scale 2 1 1"), 2),
+        ("scaled around the plane's group", group(plane(1, 0, 2, 0), group(CUBE, fields="scale 2 1 1")), 2),
+    ):
+        got = suite.probe(front_scene(content), pixels, size="8x8")
+        for x, color in zip(places, got):
+            suite.close(f"{name} at {x}", color, left(0.5 + x / scale))
 
 
 @suite.case
-def planes_of_the_scene():
-    "the planes of the groups around cut; ignoreClipPlanes spares a volume; own planes still cut it"
-    def group(volume_text):
-        return f"Group {{ children [ ClipPlane {{ plane 0 0 1 0 }} {volume_text} ] }}\n"
-    suite.close("cut", suite.middle(front_scene(group(cube()))), slab(0.5))
-    suite.close("spared", suite.middle(front_scene(group(cube("ignoreClipPlanes TRUE")))), slab(1))
-    own = cube("ignoreClipPlanes TRUE clipPlanes ClipPlane { plane 0 0 -1 .2 }")
-    suite.close("own", suite.middle(front_scene(group(own))), slab(0.7))
-    outside = cube() + "Group { children ClipPlane { plane 0 0 1 0 } }\n"
-    suite.close("of another group", suite.middle(front_scene(outside)), slab(1))
-    two = group(cube() + cube("ignoreClipPlanes TRUE").replace("VolumeData", "VolumeData", 1))
-    want = over(slab(0.5), (0, 0, 0, 0))
-    both = premultiplied((1, 0, 0), 1 - (1 - opacity(A, 0.5, 1)) * (1 - opacity(A, 1, 1)))
-    suite.close("one of two that overlap", suite.middle(front_scene(two)), both)
+def own_planes():
+    "clipPlanes of a volume: in its coordinates, for it alone"
+    cut = volume(DATA, fields=f"clipPlanes [ {FAR} {plane(0, 0, -1, 0.3)} ]")
+    ahead((
+        ("two", cut, 0.3),
+        ("turned round with it", group(cut, fields="rotation 0 1 0 3.14159265"), 0.3),
+        ("disabled", volume(DATA, fields="clipPlanes ClipPlane { plane 0 0 1 0 enabled FALSE }"), 1),
+        ("and the scene's", group(plane(0, 0, -1, 0.1), cut), 0.1),
+    ))
+    stretched = group(volume(DATA, fields=f"clipPlanes {FAR}"), fields="scale 1 1 3")
+    suite.close("stretched with it: lengths are its own", suite.middle(front_scene(stretched)), left(0.5))
+    # two in one box, one of them cut: the other one is whole
+    both = volume(DATA, fields=f"clipPlanes {FAR}") + volume(DATA)
+    through = 1 - (1 - opacity(VALUE, 0.5, UNIT)) * (1 - opacity(VALUE, 1, UNIT))
+    suite.close("one of two that overlap", suite.middle(front_scene(both)), premultiplied((VALUE,) * 3, through))
+
+
+@suite.case
+def spared():
+    "ignoreClipPlanes: planes of the scene spare this volume, its own and its crop box do not"
+    ahead((
+        ("spared", group(FAR, volume(DATA, fields="ignoreClipPlanes TRUE")), 1),
+        ("not its own", group(FAR, volume(DATA, fields=f"ignoreClipPlanes TRUE clipPlanes {plane(0, 0, -1, 0.2)}")), 0.7),
+        ("not its box", group(FAR, volume(DATA, fields="ignoreClipPlanes TRUE cropMin 0 0 .4")), 0.6),
+    ))
+    both = group(FAR, volume(DATA, fields="ignoreClipPlanes TRUE"), volume(DATA))
+    through = 1 - (1 - opacity(VALUE, 1, UNIT)) * (1 - opacity(VALUE, 0.5, UNIT))
+    suite.close("one of two", suite.middle(front_scene(both)), premultiplied((VALUE,) * 3, through))
+
+
+@suite.case
+def boxes():
+    "cropMin and cropMax: a box in texture coordinates, whatever the volume's size and place"
+    ahead((
+        ("from behind", volume(DATA, fields="cropMin 0 0 .3"), 0.7),
+        ("from the front", volume(DATA, fields="cropMax 1 1 .3"), 0.3),
+        ("both", volume(DATA, fields="cropMin 0 0 .25 cropMax 1 1 .75"), 0.5),
+        ("more than all", volume(DATA, fields="cropMin -1 -1 -1 cropMax 2 2 2"), 1),
+        ("nothing", volume(DATA, fields="cropMin 0 0 .6 cropMax 1 1 .4"), 0),
+        ("beside the ray", volume(DATA, fields="cropMin .6 0 0"), 0),
+        ("with a plane", group(plane(0, 0, -1, 0), volume(DATA, fields="cropMin 0 0 .3")), 0.2),
+    ))
+    long = volume(DATA, fields="cropMin 0 0 .25 opacityUnitDistance .5", dimensions=(1, 1, 2))
+    suite.close("a long box", suite.middle(front_scene(long)), left(1.5))
+    turned = group(volume(DATA, fields="cropMin .25 0 0"), fields="rotation 0 1 0 1.57079633")
+    suite.close("turned", suite.middle(front_scene(turned)), left(0.75))
+    got = suite.probe(front_scene(volume(DATA, fields="cropMin .25 .5 0 cropMax .75 1 1")),
+                      [(x, 3) for x in range(8)] + [(3, 4)], size="8x8")
+    for x, color in enumerate(got[:8]):
+        suite.close(f"the sides, column {x}", color, left(1 if x in (3, 4) else 0))
+    suite.close("the lower half", got[8], left(0))
+
+
+@suite.case
+def moving():
+    "planes and boxes that move"
+    timed = group("DEF P ClipPlane { plane 0 0 -1 0 }", "DEF V " + CUBE) + (
+        "DEF T TimeSensor { loop TRUE cycleInterval 4 }\n"
+        "DEF I PositionInterpolator { key [0 1] keyValue [0 0 0 0 0 1] }\n"
+        "DEF S ScalarInterpolator { key [0 1] keyValue [0 1] }\n"
+        "ROUTE T.fraction_changed TO I.set_fraction ROUTE I.value_changed TO V.cropMin\n")
+    for time in (0.4, 1, 1.6, 3):  # the far part goes first, the near half is not there
+        got = suite.middle(front_scene(timed), "--time", time)
+        suite.close(f"a box at {time}", got, left(max(0.5 - time / 4, 0)))
+    timed = group(group(FAR.replace("ClipPlane", "DEF P ClipPlane"), CUBE)) + (
+        "DEF T TimeSensor { loop TRUE cycleInterval 4 }\n"
+        "DEF B BooleanSequencer { key [0 0.5] keyValue [FALSE TRUE] }\n"
+        "ROUTE T.fraction_changed TO B.set_fraction ROUTE B.value_changed TO P.enabled\n")
+    for time, length in ((1, 1), (3, 0.5)):
+        suite.close(f"a plane at {time}", suite.middle(front_scene(timed), "--time", time), left(length))
+
+
+SHEET = volume(DATA, fields="opacityUnitDistance .001", dimensions=(1, 1, 0.001))  # 10 from the eye
 
 
 @suite.case
 def fog():
-    "fog changes the colour of samples by their distance, the nearest LocalFog first; opacity stays"
-    style = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 1 1 4 0xFF0000FF } }"
-    body = cube(style=style)
-    for more, want in (("", None), ('fogType "EXPONENTIAL"', "exp")):
-        text = f"Fog {{ color 0 0 1 visibilityRange 20 {more} }}\n" + body
-        got = suite.middle(front_scene(text), "--step", ".01")
-        d = 9.5
-        f = 1 - d / 20 if want is None else math.exp(-d / (20 - d))
-        suite.close(more or "linear", got, (f, 0, 1 - f, 1), 1e-3)
-    local = f"Group {{ children [ LocalFog {{ color 0 1 0 visibilityRange 19 }} {body} ] }}\nFog {{ color 0 0 1 visibilityRange 20 }}\n"
-    suite.close("local", suite.middle(front_scene(local), "--step", ".01"), (0.5, 0.5, 0, 1), 1e-3)
-    thin = front_scene("Fog { color 0 0 1 visibilityRange 20 }\n" + cube())
-    got = suite.middle(thin, "--step", ".02")
-    suite.close("alpha", got[3], opacity(A, 1, 1))
-    od = -math.log(1 - A)
-    n = 2000
-    red = sum(math.exp(-od * (i + .5) / n) * od / n * (1 - (9.5 + (i + .5) / n) / 20) for i in range(n))
-    suite.close("the integral of what is fogged", got[0], red, 1e-4)
-    surface = f"IsoSurfaceVolumeData {{ surfaceValues .5 voxels {voxels(1, (1, 1, 2), (0, 255))} renderStyle {style} }}\n"
-    got = suite.middle(front_scene("Fog { color 0 0 1 visibilityRange 20 }\n" + surface))
-    suite.close("a surface", got, (0.5, 0, 0.5, 1), 1e-5)
-    code = effect("void PLUG_fog_apply(inout vec4 fragment_color, const in vec3 normal_eye) { fragment_color.g = 1.0; }")
-    suite.close("an author's fog", suite.middle(front_scene(cube(f"effects [ {code} ]"))), premultiplied((1, 1, 0), opacity(A, 1, 1)))
+    "fog takes a sample's colour as that of a surface at its distance, and leaves its opacity"
+    def fogged(color, share):
+        return premultiplied([c * (1 - share) + VALUE * share for c in color], VALUE)
+
+    color = (1, 0.5, 0)
+    for name, fields, share in (
+        ("linear", "visibilityRange 40", 0.75),
+        ("exponential", 'visibilityRange 40 fogType "EXPONENTIAL"', math.exp(-10 / 30)),
+        ("none", "visibilityRange 0", 1),
+        ("out of sight", "visibilityRange 8", 0),
+    ):
+        for node in ("Fog", "LocalFog"):
+            text = front_scene(f"{node} {{ color 1 .5 0 {fields} }}\n", SHEET)
+            suite.close(f"{node}, {name}", suite.middle(text), fogged(color, share), 3e-4)
+    text = front_scene("Group { children LocalFog { color 1 .5 0 visibilityRange 40 } }\n", SHEET)
+    suite.close("elsewhere", suite.middle(text), fogged(color, 1))
+    deep = front_scene("Fog { color 1 0 0 visibilityRange 40 }\n", volume(constant(255), fields=""))
+    suite.close("an opaque box: its front", suite.middle(deep, "--step", "0.01"), (1, 1 - 9.5 / 40, 1 - 9.5 / 40, 1), 1e-3)
 
 
 @suite.case
-def no_new_programs():
-    "numbers of crop boxes and planes are no part of the program"
-    def program(fields):
-        result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": front_scene(cube(fields))})
-        with open(f"{result.folder}/out/volume-1.frag") as file:
+def paid_for():
+    "a scene without planes, boxes or fog has none in its program"
+    def program(content):
+        result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": front_scene(content)})
+        with open(f"{result.folder}/out/volume-1.frag", encoding="utf-8") as file:
             return file.read()
-    suite.equal("crop", program("cropMin .1 .2 .3"), program("cropMax .9 .8 .7"))
-    suite.equal("planes", program("clipPlanes ClipPlane { plane 1 0 0 0 }"), program("clipPlanes ClipPlane { plane 0 1 0 .5 }"))
+
+    bare, full = program(CUBE), program("Fog { visibilityRange 9 }\n" + group(FAR, volume(DATA, fields="cropMin 0 0 .1")))
+    for word in ("fog_interpolant", "plane"):
+        suite.check(f"{word} where it is asked for", word in full)
+        suite.check(f"no {word} without", word not in bare)
 
 
 suite.run()
