@@ -254,5 +254,7 @@ check_equal([(e["effect"], e["place"]["line"]) for e in program["members"]["grad
 check_equal(program["members"]["normal_eye"]["read_by"], [], "and no normal")
 check(re.search(r"gradient \(its magnitude\) is read by Steep at scene.x3dv:3:\d+\n", text), "in words", text)
 
+result, text = info(scene("missing.nrrd"), status=1)
+check_equal(result["volumes"], [], "voxels that cannot be read are left out")
 plugray.expect(2, "info", "--format", "sarif", "scene.x3dv", stderr="text|json")
 done()
