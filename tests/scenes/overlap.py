@@ -146,7 +146,7 @@ def shape_between():
 
 @suite.case
 def per_ray_order():
-    "which volume is nearer is decided for each ray"
+    "T15: which volume is nearer is decided for each ray"
     # two crossed slabs: left the red one is nearer, right the blue one
     slabs = [
         f"Transform {{ rotation 0 1 0 {angle} children [\n"

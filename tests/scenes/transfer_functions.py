@@ -62,7 +62,7 @@ def kinds_of_texel():
 
 @suite.case
 def fine_table():
-    "a table of 256: voxel i meets texel i, without mipmaps"
+    "T17: a table of 256: voxel i meets texel i, without mipmaps"
     words = [(i * 77 % 256) << 24 | (i * 31 % 256) << 16 | (255 - i) << 8 | (i * 13 % 256)
              for i in range(256)]
     function = texture(256, 1, 4, [f"0x{w:08X}" for w in words])
@@ -73,7 +73,7 @@ def fine_table():
 
 @suite.case
 def wide_texture_of_one_colour():
-    "the rows of a function count for two components; LA voxels look up (l, a)"
+    "T17: the rows of a function count for two components; LA voxels look up (l, a)"
     # 2 x 3 texels, bottom row first
     words = [0x00000000, 0xFF0000FF, 0x00FF0080, 0x0000FF80, 0xFFFFFF40, 0x80808040]
     function = texture(2, 3, 4, [f"0x{w:08X}" for w in words])
@@ -100,7 +100,7 @@ def ignored_components():
 
 @suite.case
 def three_dimensions():
-    "a 3D function is looked up with red, green and blue"
+    "T17: a 3D function is looked up with red, green and blue"
     words = [0xFF0000C0, 0x00FF00C0, 0x0000FFC0, 0xFFFF00C0, 0x00FFFFC0, 0xFF00FFC0, 0x808080C0,
              0x204060C0]
     function = voxels(4, (2, 2, 2), [f"0x{w:08X}" for w in words])

@@ -20,7 +20,7 @@ def grey(alpha):
 
 @suite.case
 def steps():
-    "a constant volume is as opaque for any step"
+    "T1: a constant volume is as opaque for any step"
     for value in (1, 51, 128, 254):
         text = front_scene(volume(constant(value, (4, 4, 4))))
         expected = grey(opacity(value / 255, 1, 1 / 4))(value / 255)
@@ -49,7 +49,7 @@ def empty():
 
 @suite.case
 def thin_fog():
-    "1/255 in each of 1000 reference lengths"
+    "T2: 1/255 in each of 1000 reference lengths"
     text = front_scene(
         "Transform { translation 0 0 -600 children [\n",
         volume(constant(1, (1, 1, 1000)), dimensions=(1, 1, 1000)),
