@@ -19,25 +19,35 @@ static bool no_memory(plr_place place, plr_diags *diags) {
     return false;
 }
 
-/* Memory for all slices, once the first is known. */
+/* What all will be, once the first is known. */
 static bool begin(plr_image *stack, const plr_image *first, size_t count, plr_place place,
                   plr_diags *diags) {
     *stack = *first;
     stack->samples = NULL;
     stack->mipmaps = 0;
     stack->depth = (uint32_t)count;
-    if (!plr_volume_check_image(stack, place, diags))
-        return false;
-    stack->samples = malloc(slice_bytes(stack) * count);
-    return stack->samples || no_memory(place, diags);
+    return plr_volume_check_image(stack, place, diags);
 }
 
-/* Brings what is there to a wider type. */
+/* Memory is taken for twice the slices that were there: more may be missing. */
+static bool make_room(plr_image *stack, size_t index, plr_place place, plr_diags *diags) {
+    if (index & (index - 1))
+        return true;
+    size_t room = index ? 2 * index : 1;
+    room = room < stack->depth ? room : stack->depth;
+    void *more = realloc(stack->samples, slice_bytes(stack) * room);
+    if (!more)
+        return no_memory(place, diags);
+    stack->samples = more;
+    return true;
+}
+
+/* Brings what is there to a wider type, with room for as much again (as make_room has it). */
 static bool widen(plr_image *stack, size_t done, plr_sample_type type, plr_place place,
                   plr_diags *diags) {
     plr_image whole = *stack, filled = *stack;
     whole.type = type;
-    whole.samples = malloc(slice_bytes(&whole) * whole.depth);
+    whole.samples = malloc(slice_bytes(&whole) * (2 * done < whole.depth ? 2 * done : whole.depth));
     if (!whole.samples)
         return no_memory(place, diags);
     filled.depth = (uint32_t)done;
@@ -59,6 +69,8 @@ static bool put_slice(plr_image *stack, const plr_image *slice, size_t index, pl
     }
     if (wider(stack->type, slice->type) != stack->type &&
         !widen(stack, index, slice->type, place, diags))
+        return false;
+    if (!make_room(stack, index, place, diags))
         return false;
     plr_image_convert(slice, stack->components, stack->type,
                       (char *)stack->samples + index * slice_bytes(stack));

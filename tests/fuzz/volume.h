@@ -43,6 +43,8 @@ static inline void fuzz_volume(const uint8_t *data, size_t size) {
                                 .load = load_copy,
                                 .release = release_copy};
     source.user = &source;
+    source.time_given = size > 0;
+    source.time_point = size > 0 ? data[size - 1] % 4 : 0;
     plr_volume volume;
     plr_image image;
     if (plr_volume_parse(&source, &volume)) {
