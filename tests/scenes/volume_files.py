@@ -322,6 +322,61 @@ def brought_down():
     suite.close("the opacity", pixel[3], 1 - (1 - 0.2) ** 2, 1e-4)
 
 
+# ---- Segment numbers
+
+SEGMENT = effect("void PLUG_volume_classify(inout vec4 color, const in VolumeSample s) {\n"
+                 "  int n = s.segment;\n"
+                 "  color = vec4(vec3(n & 255, n >> 8 & 255, n >> 16 & 255) / 255.0, 1.0); }")
+
+
+def segments(file, count, side=0):
+    """The segment numbers in the middle of `count` parts of a row, and what is said of them."""
+    side = side or count
+    text = scene(FULL, f"SegmentedVolumeData {{ effects {SEGMENT}\n"
+                 f"voxels {image3d('v.nrrd')} segmentIdentifiers\n{image3d('s.nrrd')} }}\n")
+    where = [word for x in range(count) for word in ("--probe", f"{x},{count - 1}")]
+    files = {"v.nrrd": nrrd("uchar", (side, 1, 2), bytes([255] * side * 2)), "s.nrrd": file}
+    result = suite.render(text, *where, "--step", "0.2", size=f"{count}x{count}", files=files)
+    found = []
+    for line in result.output.splitlines():
+        r, g, b, _ = (round(float(v) * 255) for v in line.split())
+        found.append(r + 256 * g + 65536 * b)
+    return found, [m[3:5] for m in result.messages()]
+
+
+@suite.case
+def segment_numbers():
+    "numbers of segments are whole numbers of any size, as stored, never mixed"
+    for kind, code, values in (("uchar", "B", [0, 255, 7]), ("ushort", "H", [0, 256, 65535]),
+                               ("short", "h", [300, 12, 999]), ("uint", "I", [65536, 70001, 16777215]),
+                               ("float", "f", [3.0, 2035.0, 256.0])):
+        raw = struct.pack(f"<6{code}", *values * 2)
+        suite.equal(kind, segments(nrrd(kind, (3, 1, 2), raw, more="endian: little\n"), 3),
+                    ([int(v) for v in values], []))
+    raw = struct.pack("<6h", *[-4, 5, -1] * 2)
+    suite.equal("below 0", segments(nrrd("short", (3, 1, 2), raw, more="endian: little\n"), 3),
+                ([0, 5, 0], [("warning", "4 segment numbers are below 0 or beyond 32 bits; 0 is "
+                              "taken for them")]))
+    raw = struct.pack("<6f", *[1.75, 5, 1.25] * 2)
+    suite.equal("fractions", segments(nrrd("float", (3, 1, 2), raw, more="endian: little\n"), 3),
+                ([2, 5, 1], [("warning", "4 segment numbers are not whole; they are rounded")]))
+
+
+@suite.case
+def reduced_segments():
+    "segment numbers of what is brought down are those of most voxels"
+    side = 16384
+    # thirds: 9; 9 and 300, three times as many of these; 7
+    part = [9] * (side // 4) + [300, 300, 9, 300] * (side // 8) + [7] * (side // 4)
+    raw = struct.pack(f"<{2 * side}H", *part * 2)
+    found, said = segments(nrrd("ushort", (side, 1, 2), raw, more="endian: little\n"), 4, side)
+    if not said:
+        suite.skip("16384 voxels a side", "GL takes them here")
+        return
+    suite.equal("", found, [9, 300, 300, 7])
+    suite.equal("one warning", len(said), 1)
+
+
 @suite.case
 def levels():
     "a list of voxels is one volume and its reduced copies; wrong sizes are warnings"
