@@ -38,7 +38,8 @@ struct plr_slot {
         SLOT_VOXELS,
         SLOT_LABELS,
         SLOT_SURFACES,
-        SLOT_DEFAULT_RAMP,
+        SLOT_MAPS,
+        SLOT_FUNCTIONS,
         SLOT_DEPTHS
     } source;
     size_t depths;        /* of SLOT_DEPTHS: where in plr_frame its name is */
@@ -78,8 +79,9 @@ static bool find_depths(const char *name, plr_slot *slot) {
 static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
     bool labels = strcmp(symbol->name, "labels") == 0;
     bool surfaces = strcmp(symbol->name, "surfaces") == 0;
-    slot->source = labels ? SLOT_LABELS : SLOT_SURFACES;
-    return labels || surfaces;
+    bool maps = strcmp(symbol->name, "segmentMaps") == 0;
+    slot->source = labels ? SLOT_LABELS : surfaces ? SLOT_SURFACES : SLOT_MAPS;
+    return labels || surfaces || maps;
 }
 
 /* Keys of transfer functions may be physical values of the voxels that the effect reads. */
@@ -92,8 +94,12 @@ static plr_texture *texture_of(plr_kitchen *k, const plr_node *node, const plr_b
 /* Where the value of a uniform comes from; false if nothing is known (its initialiser stands). */
 static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_binding *binding,
                         bool builtin, size_t element, plr_slot *slot) {
-    if (slot->type->shape == SHAPE_SAMPLER && !binding)
-        return find_depths(symbol->name, slot);
+    if (slot->type->shape == SHAPE_SAMPLER && !binding) {
+        if (find_depths(symbol->name, slot))
+            return true;
+        slot->source = SLOT_FUNCTIONS;
+        return strcmp(symbol->name, "plugray_TransferFunctions") == 0;
+    }
     if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->grid &&
         strcmp(symbol->name, "voxels") == 0) {
         slot->source = SLOT_VOXELS;
@@ -113,12 +119,6 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
         slot->texture =
             binding->texture ? binding->texture : plr_textures_get(k->textures, binding->node);
         return slot->texture != NULL;
-    }
-    if (slot->type->shape == SHAPE_SAMPLER && builtin && slot->volume != PLR_NO_EFFECT &&
-        strcmp(symbol->name, "transferFunction") == 0 &&
-        !plr_textures_in(k->textures, binding->node, symbol->name)) {
-        slot->source = SLOT_DEFAULT_RAMP;
-        return true;
     }
     if (slot->light_value && slot->type->shape == SHAPE_FLOAT) {
         slot->source = SLOT_LIGHT;
@@ -150,19 +150,10 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
     return slot->texture && (int)slot->texture->kind == slot->type->components;
 }
 
-/* A program of volumes reads textures in a loop along a ray. */
-static bool is_of_volumes(const plr_recipe *recipe) {
-    for (size_t i = 0; i < recipe->bindings.count; i++)
-        if (recipe->bindings.items[i].volume != PLR_NO_EFFECT)
-            return true;
-    return false;
-}
-
 void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
                    const plr_program *program, const plr_built *built, plr_slots *slots) {
     slots->defaults = NULL;
     unsigned units = 0;
-    plr_texture_use use = is_of_volumes(recipe) ? PLR_USE_VOLUME : PLR_USE_SURFACE;
     for (size_t i = 0; i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
         bool own = symbol->effect == PLR_NO_EFFECT;
@@ -172,11 +163,13 @@ void plr_bind_find(plr_kitchen *k, const plr_gl *gl, const plr_recipe *recipe,
             *base = (plr_binding){.node = recipe->base_node, .volume = PLR_NO_EFFECT};
             binding = base;
         }
+        size_t volume = binding ? binding->volume : PLR_NO_EFFECT;
         plr_slot slot = {.binding = binding,
                          .array = symbol->array,
                          .type = plr_glsl_type_find(symbol->type),
-                         .use = use,
-                         .volume = binding ? binding->volume : PLR_NO_EFFECT};
+                         .use = recipe->casts_rays || volume != PLR_NO_EFFECT ? PLR_USE_VOLUME
+                                                                              : PLR_USE_SURFACE,
+                         .volume = volume};
         if (symbol->kind == PLR_UNIFORM && !slot.type)
             slots->defaults = built->defaults;
         if (symbol->kind != PLR_UNIFORM || !slot.type)
@@ -337,8 +330,13 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
         else
             unbind_texture(gl, slot);
         break;
-    case SLOT_DEFAULT_RAMP:
-        plr_texture_bind(textures, values->default_ramp, slot->unit, PLR_USE_CLAMPED);
+    case SLOT_MAPS:
+        if (volume && volume->maps)
+            set_floats(gl, slot, (GLsizei)volume->map_count, volume->maps[0], false);
+        return;
+    case SLOT_FUNCTIONS:
+        if (values->functions)
+            plr_texture_bind(textures, values->functions, slot->unit, PLR_USE_CLAMPED);
         break;
     case SLOT_DEPTHS:
         gl->ActiveTexture(GL_TEXTURE0 + slot->unit);

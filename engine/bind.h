@@ -64,6 +64,8 @@ typedef struct plr_volume_state {
     plr_volume_kind kind;
     float (*surfaces)[2]; /* value, ascending, and number; of PLR_VOLUME_SURFACES */
     size_t surface_count;
+    float (*maps)[4]; /* of segments that have a transfer function and no more; or NULL */
+    size_t map_count;
     uint64_t hash; /* of the voxels */
 } plr_volume_state;
 
@@ -74,7 +76,7 @@ typedef struct plr_values {
     plr_matrix to_world;   /* of what is drawn */
     const plr_volume_state *volumes;
     size_t volume_count;
-    plr_texture *default_ramp; /* what a transfer function of NULL stands for */
+    plr_texture *functions; /* the transfer functions of the volumes, in one texture */
 } plr_values;
 
 /* One uniform of a GL program and where its value comes from. */

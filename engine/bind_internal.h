@@ -36,11 +36,12 @@ typedef struct plr_known_context {
 } plr_known_context;
 
 typedef enum plr_known_owner {
-    OWNER_HOST,   /* base and library */
-    OWNER_NODE,   /* a built-in effect with a node or the headlight */
-    OWNER_VOLUME, /* a built-in effect of a volume */
-    OWNER_GRID,   /* a built-in effect that reads voxels */
-    OWNER_SHADOW, /* the effect of a shadow map */
+    OWNER_HOST,     /* base and library */
+    OWNER_NODE,     /* a built-in effect with a node or the headlight */
+    OWNER_VOLUME,   /* a built-in effect of a volume */
+    OWNER_FUNCTION, /* a built-in effect whose transfer function is in the atlas */
+    OWNER_GRID,     /* a built-in effect that reads voxels */
+    OWNER_SHADOW,   /* the effect of a shadow map */
 } plr_known_owner;
 
 typedef struct plr_known {

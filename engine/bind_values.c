@@ -5,6 +5,7 @@
 #include "engine/bind_internal.h"
 #include "engine/light_values.h"
 #include "engine/projector.h"
+#include "engine/transfer_atlas.h"
 
 static plr_matrix model_view(const plr_known_context *c) {
     return plr_matrix_multiply(&c->values->frame->view, &c->values->to_world);
@@ -128,6 +129,12 @@ static void v_gradient_most(const plr_known_context *c, float *out) {
 static void v_surface_count(const plr_known_context *c, float *out) {
     out[0] = (float)c->volume->surface_count;
 }
+static void v_map_count(const plr_known_context *c, float *out) {
+    out[0] = (float)c->volume->map_count;
+}
+static void v_transfer_place(const plr_known_context *c, float *out) {
+    memcpy(out, c->binding->function->rect, sizeof c->binding->function->rect);
+}
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
 }
@@ -228,6 +235,8 @@ static const plr_known known[] = {
     {"gradientMost", OWNER_VOLUME, v_gradient_most},
     {"surfaceCount", OWNER_VOLUME, v_surface_count},
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
+    {"segmentMapCount", OWNER_VOLUME, v_map_count},
+    {"transferPlace", OWNER_FUNCTION, v_transfer_place},
     {"voxelLength", OWNER_VOLUME, v_voxel_length},
     {"approach", OWNER_VOLUME, v_approach},
     {"volumeIndex", OWNER_VOLUME, v_volume_index},
@@ -241,11 +250,12 @@ static const plr_known known[] = {
 
 const plr_known *plr_known_find(const char *name, const plr_binding *binding) {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        bool fits = known[i].owner == OWNER_HOST     ? !binding
-                    : known[i].owner == OWNER_NODE   ? binding != NULL
-                    : known[i].owner == OWNER_SHADOW ? binding && binding->shadow
-                    : known[i].owner == OWNER_GRID   ? binding && binding->grid
-                                                     : binding && binding->volume != PLR_NO_EFFECT;
+        bool fits = known[i].owner == OWNER_HOST       ? !binding
+                    : known[i].owner == OWNER_NODE     ? binding != NULL
+                    : known[i].owner == OWNER_SHADOW   ? binding && binding->shadow
+                    : known[i].owner == OWNER_FUNCTION ? binding && binding->function
+                    : known[i].owner == OWNER_GRID     ? binding && binding->grid
+                                                   : binding && binding->volume != PLR_NO_EFFECT;
         if (fits && strcmp(known[i].name, name) == 0)
             return &known[i];
     }

@@ -19,8 +19,9 @@ typedef struct plr_binding {
     bool is_light;           /* the effect of a light itself */
     plr_texture *texture;    /* what the sampler `self` reads; NULL: the texture of the node */
     const struct plr_shadow_values *shadow; /* of an effect that reads a shadow map; or NULL */
-    const struct plr_grid *grid; /* of an effect that reads voxels; or NULL */
-    int number;                  /* of the segment or surface whose styles it is around */
+    const struct plr_grid *grid;            /* of an effect that reads voxels; or NULL */
+    const struct plr_atlas_place *function; /* where its transfer function is; or NULL */
+    int number; /* of the segment or surface whose styles it is around */
 } plr_binding;
 
 typedef struct plr_recipe {
@@ -37,6 +38,7 @@ typedef struct plr_recipe {
         size_t count, capacity;
     } defines;             /* for all units */
     const char *primitive; /* what it draws: see plr_link_desc; or NULL */
+    bool casts_rays;       /* textures are read in a loop along a ray */
     plr_sources base;
     plr_node
         *base_node; /* an author's complete shader: its fields give the base's uniforms; or NULL */
@@ -60,10 +62,10 @@ typedef struct plr_kitchen {
 void plr_kitchen_finish(plr_kitchen *kitchen);
 
 void plr_recipe_define(plr_kitchen *kitchen, plr_recipe *recipe, const char *name, int value);
-/* A built-in effect by path ("lights/PointLight"; of several, separated by blanks, the units of all,
- * if there are any of the first), called as messages and targets say (`name`),
- * with macros made from the fields of the node and `extra` ones. `attached` as in plr_effect.
- * Returns the value that attaches another effect to this one, 0 if there is no such effect. */
+/* A built-in effect by path ("lights/PointLight"; of several, separated by blanks, the units of
+ * all, if there are any of the first), called as messages and targets say (`name`), with macros
+ * made from the fields of the node and `extra` ones. `attached` as in plr_effect. Returns the value
+ * that attaches another effect to this one, 0 if there is no such effect. */
 size_t plr_recipe_builtin(plr_kitchen *kitchen, plr_recipe *recipe, const char *path,
                           const char *name, plr_binding binding, size_t attached,
                           const plr_define *extra, size_t extra_count);

@@ -135,7 +135,12 @@ void plr_surface_draw_faces(plr_view *view, plr_surface *surface, const plr_fram
     bool mirrored = plr_matrix_determinant3(&surface->to_world) < 0;
     gl->FrontFace(model->mesh.clockwise != mirrored ? GL_CW : GL_CCW);
     gl->UseProgram(model->pass.built->name);
-    plr_values values = {.frame = frame, .view = view, .to_world = surface->to_world};
+    plr_values values = {.frame = frame,
+                         .view = view,
+                         .to_world = surface->to_world,
+                         .volumes = view->volumes.volumes,
+                         .volume_count = view->volumes.count,
+                         .functions = view->volumes.functions.texture};
     plr_bind_set(gl, &view->textures, &model->pass.slots, &values);
     gl->BindVertexArray(model->vertex_array);
     gl->DrawElements(kinds[model->mesh.kind], (GLsizei)model->mesh.index_count, GL_UNSIGNED_INT,

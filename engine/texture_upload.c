@@ -157,7 +157,8 @@ bool plr_texture_upload(plr_textures *t, plr_texture *texture) {
     plr_texture_make_samplers(t, texture);
     fine = fine && gl->GetError() == GL_NO_ERROR;
     texture->stale_mipmaps = texture->image.mipmaps == 0;
-    plr_image_free(&texture->image);
+    if (!texture->keeps_image)
+        plr_image_free(&texture->image);
     return fine;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/framebuffer.h"
 #include "engine/mesh.h"
 #include "engine/surface_state.h"
+#include "engine/transfer_atlas.h"
 #include "engine/traverse.h"
 
 struct plr_engine {
@@ -56,11 +57,13 @@ typedef struct plr_volume_pass {
     size_t count;
     plr_cast *casts; /* as many as there are volumes at most */
     size_t cast_count;
-    plr_texture *default_ramp;
+    plr_atlas functions;
     struct {
         plr_grid **items;
         size_t count, capacity;
     } grids; /* of the volumes and of their styles */
+    size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
+    size_t caster_count;
 } plr_volume_pass;
 
 /* A shape with its program: shared by all places where it stands under the same lights and
@@ -186,6 +189,8 @@ void plr_world_prepare(plr_view *view, plr_diags *diags);
 /* Locations of all its programs. Needs GL. */
 void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
+/* Finds which volumes there are, and which cast shadows; then makes their programs. */
+void plr_volume_pass_find(plr_view *view, plr_diags *diags);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
 /* The gradient that counts as 1 where no author says so; never 0. */
 double plr_volume_steepness(plr_view *view, const plr_grid *grid);
@@ -210,6 +215,9 @@ void plr_background_draw(plr_view *view, const plr_background *background, const
                          const float behind[4]);
 /* Draws one cast; depths say in which order (plr_volume_depths). */
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
+/* Writes what is seen, for a cast that picks: where along the ray (a number too large: nothing),
+ * volume, surface, 1. */
+void plr_cast_pick(plr_view *view, const plr_cast *cast, const plr_frame *frame);
 /* Whether some translucent surface is inside one of its volumes; no GL. */
 bool plr_cast_is_divided(const plr_view *view, const plr_cast *cast);
 /* Whether the surface meets the box of one of its volumes. */

@@ -1,4 +1,5 @@
 /* Casting rays through volumes, in a frame. */
+#include "engine/frame.h"
 #include "engine/volume_pass.h"
 
 #include <math.h>
@@ -25,8 +26,23 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame) {
         qsort(pass->casts, pass->cast_count, sizeof *pass->casts, farther_first);
 }
 
-void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
+static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
     const plr_volume_pass *pass = &view->volumes;
+    const plr_gl *gl = &view->engine->gl;
+    gl->Disable(GL_CULL_FACE);
+    gl->UseProgram(cast->pass.built->name);
+    plr_values values = {.frame = frame,
+                         .view = view,
+                         .to_world = pass->volumes[cast->members[0]].to_world,
+                         .volumes = pass->volumes,
+                         .volume_count = pass->count,
+                         .functions = pass->functions.texture};
+    plr_bind_set(gl, &view->textures, &cast->pass.slots, &values);
+    gl->BindVertexArray(view->empty_vertex_array);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
     if (!cast->pass.built)
         return;
     const plr_gl *gl = &view->engine->gl;
@@ -34,63 +50,69 @@ void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame)
     (cast->writes_depth ? gl->Enable : gl->Disable)(GL_DEPTH_TEST);
     gl->DepthFunc(GL_ALWAYS);
     gl->DepthMask(cast->writes_depth);
-    gl->Disable(GL_CULL_FACE);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl->UseProgram(cast->pass.built->name);
-    plr_values values = {.frame = frame,
-                         .view = view,
-                         .to_world = pass->volumes[cast->members[0]].to_world,
-                         .volumes = pass->volumes,
-                         .volume_count = pass->count,
-                         .default_ramp = pass->default_ramp};
-    plr_bind_set(gl, &view->textures, &cast->pass.slots, &values);
-    gl->BindVertexArray(view->empty_vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    run(view, cast, frame);
 }
 
-/* Length of the ray o + t d (t >= 0) inside a box centred at the origin, in units of t. */
-static double chord(const double o[3], const double d[3], const double size[3]) {
-    double enter = 0, leave = INFINITY;
+void plr_cast_pick(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
+    const plr_gl *gl = &view->engine->gl;
+    if (!cast->pass.built)
+        return;
+    gl->Disable(GL_DEPTH_TEST);
+    gl->DepthMask(GL_FALSE);
+    gl->Disable(GL_BLEND);
+    run(view, cast, frame);
+}
+
+static plr_matrix eye_to_local(const plr_volume_state *volume, const plr_frame *frame) {
+    plr_matrix to_eye = plr_matrix_multiply(&frame->view, &volume->to_world), to_local;
+    plr_matrix_invert(&to_eye, &to_local);
+    return to_local;
+}
+
+/* Where the ray runs in the box; returns how much faster it is in own coordinates, 0 if nowhere. */
+static double cross(const plr_volume_state *volume, const plr_matrix *to_local, const plr_ray *ray,
+                    double range[2]) {
+    const double *m = to_local->m, *v = ray->direction;
+    double from[3], length = 0;
+    plr_matrix_point(to_local, ray->origin, from);
+    range[0] = 0;
+    range[1] = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
-        double half = size[axis] / 2;
-        if (d[axis] == 0) {
-            if (!(fabs(o[axis]) <= half))
-                return 0;
+        double half = volume->dimensions[axis] / 2;
+        double d = m[axis] * v[0] + m[4 + axis] * v[1] + m[8 + axis] * v[2];
+        length += d * d;
+        if (d == 0 && !(fabs(from[axis]) <= half))
+            return 0;
+        if (d == 0)
             continue;
-        }
-        double a = (-half - o[axis]) / d[axis], b = (half - o[axis]) / d[axis];
-        enter = fmax(enter, fmin(a, b));
-        leave = fmin(leave, fmax(a, b));
+        double a = (-half - from[axis]) / d, b = (half - from[axis]) / d;
+        range[0] = fmax(range[0], fmin(a, b));
+        range[1] = fmin(range[1], fmax(a, b));
     }
-    return leave > enter ? leave - enter : 0;
+    return range[1] > range[0] ? sqrt(length) : 0;
+}
+
+bool plr_volume_crossed(const plr_volume_state *volume, const plr_frame *frame, const plr_ray *ray,
+                        double range[2]) {
+    plr_matrix to_local = eye_to_local(volume, frame);
+    return cross(volume, &to_local, ray, range) > 0;
 }
 
 double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame) {
     double samples = 0;
     int width = (int)frame->viewport[2], height = (int)frame->viewport[3];
-    plr_matrix unproject;
-    plr_matrix_invert(&frame->projection, &unproject);
     for (size_t v = 0; v < view->volumes.count; v++) {
         const plr_volume_state *state = &view->volumes.volumes[v];
-        plr_matrix to_eye = plr_matrix_multiply(&frame->view, &state->to_world), to_local;
-        plr_matrix_invert(&to_eye, &to_local);
+        plr_matrix to_local = eye_to_local(state, frame);
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++) {
-                double ndc[2] = {(x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1};
-                double near[3] = {ndc[0], ndc[1], -1}, far[3] = {ndc[0], ndc[1], 1}, d[3];
-                plr_matrix_point(&unproject, near, near);
-                plr_matrix_point(&unproject, far, far);
-                bool parallel = frame->projection.m[15] != 0;
-                double eye[3] = {parallel ? near[0] : 0, parallel ? near[1] : 0, 0};
-                plr_matrix_point(&to_local, eye, eye);
-                plr_matrix_point(&to_local, far, far);
-                double length = 0;
-                for (int i = 0; i < 3; i++) {
-                    d[i] = far[i] - eye[i];
-                    length += d[i] * d[i];
-                }
-                samples += ceil(chord(eye, d, state->dimensions) * sqrt(length) / state->step);
+                plr_ray ray;
+                double range[2], speed;
+                plr_frame_ray(frame, x + 0.5, y + 0.5, &ray);
+                if ((speed = cross(state, &to_local, &ray, range)) > 0)
+                    samples += ceil((range[1] - range[0]) * speed / state->step);
             }
     }
     return samples;

@@ -180,21 +180,6 @@ static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) 
     }
 }
 
-static void make_default_ramp(plr_view *view) {
-    plr_image ramp = {.width = 2,
-                      .height = 1,
-                      .depth = 1,
-                      .components = 4,
-                      .type = PLR_FLOAT32,
-                      .samples = calloc(8, sizeof(float))};
-    if (!ramp.samples)
-        longjmp(*view->arena.out_of_memory, 1);
-    bool reversed = view->desc.dialect == PLR_DIALECT_2005;
-    for (int i = 0; i < 8; i++) /* 0 is black and transparent, 1 white and opaque */
-        ((float *)ramp.samples)[i] = (i % 4 == 3 && reversed) ? (float)(i < 4) : (float)(i >= 4);
-    view->volumes.default_ramp = plr_textures_make(&view->textures, &ramp, PLR_TEXTURE_2D, false);
-}
-
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
     if (!pass->count)
@@ -216,5 +201,6 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         cast->pass.built =
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
     }
-    make_default_ramp(view);
+    plr_atlas_make(&view->textures, &view->arena, &pass->functions,
+                   view->desc.dialect == PLR_DIALECT_2005);
 }

@@ -6,6 +6,7 @@
 
 #include "engine/dialect.h"
 #include "engine/shadows.h"
+#include "engine/transfer_function.h"
 
 enum {
     MOST_STYLES = 4096 /* of one volume: DEF and USE can make a few lines into very many */
@@ -62,7 +63,8 @@ static bool is_too_many(style_list *list, const plr_node *node) {
 static size_t add_effect(style_list *list, const char *path, const char *name, plr_node *node,
                          const plr_define *defines, size_t count) {
     plr_define *extra = PLR_NEW_ARRAY(&list->view->arena, count + 1, plr_define);
-    memcpy(extra, defines, count * sizeof *extra);
+    if (count)
+        memcpy(extra, defines, count * sizeof *extra);
     extra[count] =
         (plr_define){"voxels_COMPONENTS",
                      plr_arena_format(&list->view->arena, "%u", list->grid->voxels->components)};
@@ -87,47 +89,64 @@ static const char *effect_of(const char *type) {
 
 /* A style that meets light in a way of its own has its own lights: a light knows one way only. */
 static bool has_own_light(const plr_node *node) {
-    if (plr_node_is(node, "ToneMappedVolumeStyle") || plr_node_is(node, "StippleVolumeStyle"))
+    if (plr_node_is(node, "ToneMappedVolumeStyle") || plr_node_is(node, "StippleVolumeStyle") ||
+        plr_style_has_shadows(node))
         return true;
     if (!plr_node_is(node, "ShadedVolumeStyle") || !plr_node_bool(node, "lighting"))
         return false;
     const plr_node *material = plr_node_child(node, "material");
-    return (material && plr_node_is(material, "PhysicalMaterial")) ||
-           (plr_node_bool(node, "shadows") &&
-            strcmp(plr_node_string(node, "phaseFunction"), "Henyey-Greenstein") == 0);
+    return material && plr_node_is(material, "PhysicalMaterial");
 }
 
-static void add_lights(style_list *list, size_t attached) {
+static void add_lights(style_list *list, const plr_node *style, size_t attached) {
     size_t from = list->recipe->effects.count;
     plr_pass_lights(list->view, list->recipe, list->scope, attached, list->volume->index);
+    if (plr_style_has_shadows(style))
+        plr_recipe_receive(list->view, list->recipe, from);
     plr_recipe_shadows(list->view, list->recipe, from, list->volume->index, NULL);
+}
+
+/* Where a style's transfer function is among those of all volumes; NULL if it has none, or one that
+ * needs a texture of its own. An opacity map without one has the default ramp. */
+static const plr_atlas_place *place_function(style_list *list, const plr_node *node, bool map) {
+    plr_textures *textures = list->view->kitchen.textures;
+    const plr_node *given = node ? plr_node_child(node, "transferFunction") : NULL;
+    plr_texture *function = plr_textures_in(textures, node, "transferFunction");
+    if (function && plr_transfer_function_is_physical(given))
+        function = plr_transfer_function_texture(textures, given, list->grid->range);
+    if (!function && !map)
+        return NULL;
+    return plr_atlas_add(textures, &list->view->arena, &list->view->volumes.functions, function);
 }
 
 static void add_style(style_list *list, plr_node *node) {
     const char *type = node ? plr_node_type(node) : "OpacityMapVolumeStyle";
     bool map = strcmp(type, "OpacityMapVolumeStyle") == 0;
     list->leading = list->leading && map;
-    bool has_function =
-        !map || plr_textures_in(list->view->kitchen.textures, node, "transferFunction");
-    bool lit = node && has_own_light(node);
-    const plr_define defines[] = {
+    const plr_atlas_place *function = place_function(list, node, map);
+    bool dark = !list->scope, lit = node && !dark && has_own_light(node);
+    plr_define defines[5] = {
         {"LEADING", list->leading ? "1" : "0"},
-        {"DIALECT_2005", list->view->desc.dialect == PLR_DIALECT_2005 ? "1" : "0"},
-        {"HAS_material", "0"},
-        {"transferFunction_DIMENSIONS", "2"}};
-    size_t count = has_function ? 2 : 4;
+        {"DIALECT_2005", list->view->desc.dialect == PLR_DIALECT_2005 ? "1" : "0"}};
+    size_t count = 2;
+    if (function)
+        defines[count++] = (plr_define){"IN_ATLAS", "1"};
     if (node && plr_node_is(node, "ISOSurfaceVolumeStyle"))
-        count = 3;
+        defines[count++] = (plr_define){"HAS_material", "0"};
+    if (dark)
+        defines[count++] = (plr_define){"lighting", "0"};
     size_t done = add_effect(
         list, plr_arena_format(&list->view->arena, "volume/%s volume/style", effect_of(type)), type,
         node, defines, count);
     if (!done) {
         plr_diags_add(list->diags, PLR_CODE_NOT_DRAWN, plr_node_place(node),
                       "%s is not drawn yet; the style is skipped", type);
-    } else if (lit) {
-        list->recipe->effects.items[done - 1].private_plugs = true;
-        add_lights(list, done);
+        return;
     }
+    list->recipe->effects.items[done - 1].private_plugs = lit || dark;
+    list->recipe->bindings.items[done - 1].function = function;
+    if (lit)
+        add_lights(list, node, done);
 }
 
 /* ---- Styles around styles ---- */
@@ -259,6 +278,36 @@ static bool is_segment_enabled(const plr_node *node, size_t segment) {
     return !enabled || segment >= enabled->count || enabled->value.bools[segment];
 }
 
+/* Segments whose styles are opacity maps and no more share one effect. False: they are not. */
+static bool add_segment_maps(style_list *list, const plr_field *styles) {
+    enum {
+        MOST_MAPS = 256 /* the same in GLSL */
+    };
+    const plr_field *enabled = plr_node_field(list->volume->node, "segmentEnabled");
+    size_t count = styles->count;
+    if (enabled && enabled->count > count)
+        count = enabled->count;
+    if (count == 0 || count >= MOST_MAPS)
+        return false;
+    float(*maps)[4] = plr_arena_alloc(&list->view->arena, (count + 1) * sizeof *maps);
+    for (size_t i = 0; i <= count; i++) {
+        plr_node *style = i < styles->count ? styles->value.nodes[i] : NULL;
+        if (style && !plr_node_is(style, "OpacityMapVolumeStyle"))
+            return false;
+        const plr_atlas_place *place = place_function(list, style, true);
+        if (!place)
+            return false;
+        memcpy(maps[i], place->rect, sizeof maps[i]);
+        if (!any_enabled(style) || !is_segment_enabled(list->volume->node, i))
+            maps[i][2] = -1;
+    }
+    plr_volume_state *state = &list->view->volumes.volumes[list->volume->index];
+    state->maps = maps;
+    state->map_count = count + 1;
+    add_effect(list, "volume/SegmentMaps", "OpacityMapVolumeStyle", NULL, NULL, 0);
+    return true;
+}
+
 /* Segments without a style of their own have the default one. */
 static void add_segment_styles(style_list *list, const plr_field *styles) {
     const plr_node *node = list->volume->node;
@@ -274,6 +323,11 @@ static void add_segment_styles(style_list *list, const plr_field *styles) {
     for (size_t i = styles->count; enabled && i < enabled->count; i++)
         if (!enabled->value.bools[i])
             add_choice(list, (int)i, false, NULL, false);
+}
+
+static void add_all_segments(style_list *list, const plr_field *styles) {
+    if (!add_segment_maps(list, styles))
+        add_segment_styles(list, styles);
 }
 
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
@@ -295,5 +349,5 @@ void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, si
     else if (state->kind == PLR_VOLUME_SURFACES)
         add_surface_styles(&list, styles);
     else
-        add_segment_styles(&list, styles);
+        add_all_segments(&list, styles);
 }

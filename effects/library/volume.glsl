@@ -44,6 +44,15 @@ vec3 normal_of_gradient(const in vec3 gradient, const in mat3 eye_to_local) {
     return squared > 0.0 ? normal * inversesqrt(squared) : vec3(0.0);
 }
 
+/* The functions of all volumes of the program, each with a margin around it. */
+uniform sampler2D plugray_TransferFunctions;
+
+/* Looks a function up: `place` has the centre of its first texel, and how far it is to the last one. */
+vec4 transfer_in(const in vec4 place, const in vec2 at) {
+    vec2 texel = place.xy + clamp(at, 0.0, 1.0) * place.zw;
+    return texture(plugray_TransferFunctions, texel / vec2(textureSize(plugray_TransferFunctions, 0)));
+}
+
 /* Texture coordinates of a transfer function: 0 and 1 are the centres of the outer texels. */
 vec2 function_coordinate(const in vec2 at, const in ivec2 size) {
     return (clamp(at, 0.0, 1.0) * (vec2(size) - 1.0) + 0.5) / vec2(size);
@@ -54,14 +63,16 @@ int step_count(float whole, float step_length) {
     return int(ceil(min(whole / step_length - 1.0e-4, 1.0e6)));
 }
 
-/* Where a ray enters and leaves a box, in lengths of its direction; where it misses the box it leaves
- * before it enters. */
-vec2 cross_box(const in vec3 low, const in vec3 high, const in vec3 origin, const in vec3 direction) {
-    if (any(greaterThan(low, high)))
-        return vec2(0.0, -NOWHERE);
+/* Cuts the part of a ray that is within a box, in lengths of the ray's direction; where it misses the box
+ * it leaves before it enters. */
+void cross_box(const in vec3 low, const in vec3 high, const in vec3 origin, const in vec3 direction,
+               inout float enter, inout float leave) {
     /* a component of 0 stays on its side of both faces: 1e-30 reaches neither in any picture */
     vec3 d = mix(direction, vec3(1.0e-30), equal(direction, vec3(0.0)));
     vec3 to_low = (low - origin) / d, to_high = (high - origin) / d;
     vec3 near = min(to_low, to_high), far = max(to_low, to_high);
-    return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
+    enter = max(max(near.x, near.y), max(near.z, enter));
+    leave = min(min(far.x, far.y), min(far.z, leave));
+    if (any(greaterThan(low, high)))
+        leave = -NOWHERE;
 }

@@ -39,7 +39,18 @@ float style_power(const in float x, const in float y) {
     return x > 0.0 ? min(pow(x, y), 1.0e30) : 0.0;
 }
 
-#if defined(transferFunction_DIMENSIONS) && transferFunction_DIMENSIONS >= 2
+#if defined(IN_ATLAS)
+uniform vec4 transferPlace;
+
+/* 41.4.7: L goes to S; LA to S, T; what the function has no dimension for is ignored. */
+vec4 style_transfer(const in vec4 value) {
+#if voxels_COMPONENTS >= 2
+    return transfer_in(transferPlace, value.rg);
+#else
+    return transfer_in(transferPlace, vec2(value.r, 0.0));
+#endif
+}
+#elif defined(transferFunction_DIMENSIONS) && transferFunction_DIMENSIONS >= 2
 #if transferFunction_DIMENSIONS == 3
 uniform sampler3D transferFunction;
 #else

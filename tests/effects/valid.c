@@ -263,6 +263,13 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
 #define STEPPED "volume/Volume volume/grid volume/steps"
 #define SURFACES "volume/Volume volume/grid volume/levels volume/surfaces"
 #define PROJECTED "volume/Volume volume/grid volume/projection"
+/* And along the way of light. */
+#define SHADOW_STEPS "volume/ShadowRay volume/grid volume/shadow_steps"
+#define SHADOW_SURFACES "volume/ShadowRay volume/grid volume/levels volume/shadow_surfaces"
+static const plr_define in_shadow[] = {{"IN_SHADOW", "1"}};
+static const plr_define plane_of_volume[] = {{"VOLUME", "1"}};
+static const plr_define all_shadows[] = {{"SKIPS_CLEAR", "0"}};
+static const plr_define seen_shadows[] = {{"SKIPS_CLEAR", "1"}};
 static const plr_define on_no_volume[] = {{"VOLUME", "0"}};
 static const plr_define fog_of_volume[] = {
     {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "0"}, {"VOLUME", "1"}};
@@ -697,6 +704,32 @@ static const recipe recipes[] = {
      DEFINES(one_volume),
      .present = "phase_function phong_reflection",
      .absent = "emissiveColor"},
+    {"a volume in its own shadow",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(scalar)},
+      {.path = "volume/ShadedVolumeStyle", DEFINES(scattering_style), .is_private = true},
+      {.path = "lights/DirectionalLight", DEFINES(in_shadow), .attached = 2},
+      {.path = "shadows/VolumeShadow", DEFINES(seen_shadows), .is_private = true},
+      {.path = SHADOW_STEPS, DEFINES(scalar), .attached = 4, .is_private = true},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 5},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "shadowIntensity add_depth light.a",
+     .absent = "labels surfaceCount t_enter"},
+    {"surfaces in the shadow of volumes",
+     "surface/surface",
+     {{.path = "surface/Material"},
+      {.path = "lights/PointLight", DEFINES(in_shadow)},
+      {.path = "lights/SpotLight", DEFINES(in_shadow)},
+      {.path = "lights/EnvironmentLight"},
+      {.path = "shadows/VolumeShadow", DEFINES(all_shadows), .is_private = true},
+      {.path = SHADOW_STEPS, DEFINES(labelled), .attached = 5, .is_private = true},
+      {.path = "fog/ClipPlane", DEFINES(plane_of_volume), .attached = 6},
+      {.path = SHADOW_SURFACES, DEFINES(given_gradients), .attached = 5, .is_private = true},
+      {.path = "volume/SilhouetteEnhancementVolumeStyle", .attached = 8}},
+     DEFINES(plain),
+     .present = "add_depth surfaceCount VolumeSample t_enter",
+     .absent = "light.a volumeIndex labels"},
     {"materials without light",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},
@@ -766,6 +799,14 @@ static const recipe recipes[] = {
      DEFINES(one_volume),
      .present = "usampler3D texelFetch choiceNumber",
      .absent = "gradient"},
+    {"segments with maps alone",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(labelled)},
+      {.path = "volume/SegmentMaps", DEFINES(labelled), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "usampler3D segmentMaps plugray_TransferFunctions",
+     .absent = "gradient choiceNumber"},
     {"another volume blended",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},

@@ -231,4 +231,14 @@ def many():
     both_orders("in a row, each over its neighbours", *fogs)
 
 
+@suite.case
+def sixteen():
+    "sixteen volumes in one place, each with a transfer function of its own, are mixed by one program"
+    fogs = [Fog((0x10 * i << 24) | (0xFF - 9 * i << 16) | 0x4010 + i, z=0.01 * i) for i in range(16)]
+    text = front_scene(*(f.text for f in fogs))
+    result = suite.render(text, "--probe", "8,8")
+    suite.equal("no layers", [m[5] for m in result.messages()], [])
+    suite.close("mixed", [float(v) for v in result.output.split()], expected(fogs), 3e-4)
+
+
 suite.run()

@@ -106,6 +106,20 @@ def large_numbers():
 
 
 @suite.case
+def very_many():
+    "two hundred segments with a map each, one of them hidden: one look-up a sample"
+    labels = voxels(1, (4, 1, 1), (0, 100, 199, 250))
+    styles = [one_color((i << 24 | 0x80) & 0xFFFFFFFF) for i in range(200)]
+    text = segmented(styles, labels, "segmentEnabled [ " + "TRUE " * 100 + "FALSE ]")
+    got = suite.probe(front_scene(text), PIXELS, "--step", ".4")
+    for pixel, want in zip(got, ((0, 0, 0, A), (0, 0, 0, 0), (199 / 255 * A, 0, 0, A), DEFAULT)):
+        suite.close("", pixel, want)
+    result = suite.command("render", "scene.x3dv", "--stats", "json", "--size", "8x8",
+                           files={"scene.x3dv": front_scene(text)})
+    suite.check("fetches", '"fetches": 3' in result.output, result.output[-200:])
+
+
+@suite.case
 def other_size():
     "identifiers of another size are ignored, with a warning"
     text = front_scene(segmented([RED, GREEN], voxels(1, (2, 1, 1), (1, 1))))
