@@ -149,11 +149,13 @@ static bool fit(reading *r) {
         gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &side);
     const uint32_t full[3] = {r->voxels.width, r->voxels.height, r->voxels.depth};
     memcpy(r->kept->full_size, full, sizeof full);
-    plr_image_reduction(&r->voxels, side > 0 ? (uint32_t)side : 0, PLR_VOLUME_MOST_BYTES, by);
+    size_t most = r->view->desc.max_voxel_bytes;
+    plr_image_reduction(&r->voxels, side > 0 ? (uint32_t)side : 0,
+                        most ? most : PLR_VOLUME_MOST_BYTES, by);
     if (by[0] == 1 && by[1] == 1 && by[2] == 1)
         return true;
     plr_diags_add_as(r->diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(r->owner),
-                     "%u x %u x %u voxels are more than GL takes here; they are brought down by "
+                     "%u x %u x %u voxels are more than can be held here; they are brought down by "
                      "%u x %u x %u",
                      full[0], full[1], full[2], by[0], by[1], by[2]);
     return plr_image_reduce(&r->voxels, by) &&

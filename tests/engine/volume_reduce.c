@@ -175,7 +175,28 @@ static void test_levels(void) {
     CHECK_INT(plr_volume_fitting_level(0, 8), 0);
 }
 
+/* The limit of bytes is the host's. */
+static void check_limit(size_t bytes, const char *message) {
+    plr_diags *diags = plr_diags_create(NULL);
+    plr_scene *scene = read_scene(
+        "VolumeData { voxels PixelTexture3D { image [ 1 2 2 2 1 2 3 4 5 6 7 8 ] } }", diags);
+    const plr_view_desc desc = {.max_voxel_bytes = bytes};
+    plr_view *view = plr_view_create(NULL, scene, &desc, diags);
+    CHECK_STR(diag_text(diags, 0), message);
+    plr_view_destroy(&view);
+    plr_scene_destroy(&scene);
+    plr_diags_destroy(&diags);
+}
+
+static void test_limit(void) {
+    check_limit(0, "(none)");
+    check_limit(16, "(none)");
+    check_limit(15, "scene.x3dv:3:7 warning 2 x 2 x 2 voxels are more than can be held here; they "
+                    "are brought down by 2 x 2 x 2");
+}
+
 int main(void) {
+    test_limit();
     test_factors();
     test_values();
     test_mean();

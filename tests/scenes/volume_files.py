@@ -312,7 +312,7 @@ def brought_down():
         suite.skip("16384 voxels a side", "GL takes them here")
         return
     suite.check("one warning", len(messages) == 1 and messages[0][0] == "warning"
-                and "16384 x 1 x 2 voxels are more than GL takes here; they are brought down by "
+                and "16384 x 1 x 2 voxels are more than can be held here; they are brought down by "
                 in messages[0][1] and messages[0][2] == "limit", messages)
     suite.close("the mean", float(result.output.split()[0]), 150 / 255, 1e-4)
     # a voxel's opacity belongs to the reference length of the whole volume
