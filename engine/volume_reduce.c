@@ -238,6 +238,9 @@ bool plr_image_reduce(plr_image *image, const uint32_t factors[3]) {
 
 /* ---- Copies that the scene gives ---- */
 
+/* Half of half of the longest side, and so on, is 1: no file need be read for more. */
+#define MOST_LEVELS 14
+
 /* ISO/IEC JTC 1's proposal of 2005 for volumes, VolumeData: "each level should be half the
  * dimensions of the previous level"; both ways of rounding are in use. */
 static bool is_half(uint32_t of, uint32_t size) {
@@ -249,7 +252,7 @@ void plr_volume_check_levels(plr_scene *scene, const plr_node *node, const plr_v
     const plr_field *levels = plr_node_field(node, "voxelLevels");
     uint32_t before[3];
     memcpy(before, finest->size, sizeof before);
-    for (size_t i = 0; levels && i < levels->count; i++) {
+    for (size_t i = 0; levels && i < levels->count && i < MOST_LEVELS; i++) {
         const plr_node *level = levels->value.nodes[i];
         plr_volume volume;
         if (!level || !plr_volume_from_node(scene, level, &volume, diags))
