@@ -32,8 +32,10 @@ typedef struct collection {
     size_t damaged, unreadable;
     const char *unread; /* one of the unreadable */
     /* the file whose frames are read */
-    plr_dicom *open;
+    bool is_open;
     uint32_t open_file;
+    plr_bytes bytes;
+    plr_dicom_frames frames;
     size_t frames_read;
 } collection;
 
@@ -209,38 +211,33 @@ static bool choose_series(collection *all, const char *wanted) {
 /* ---- Frames ---- */
 
 static void close_file(collection *all) {
-    plr_dicom_close(all->open);
-    all->open = NULL;
+    if (!all->is_open)
+        return;
+    plr_dicom_frames_close(&all->frames);
+    release_file(all, &all->bytes);
+    all->is_open = false;
 }
 
 static bool open_file(collection *all, uint32_t index) {
     const char *name = all->files[index].name;
-    plr_bytes bytes;
-    plr_dicom_set set;
     char fault[PLR_DICOM_FAULT] = "";
     close_file(all);
-    if (!load_file(all, name, &bytes, all->source->diags))
+    if (!load_file(all, name, &all->bytes, all->source->diags))
         return false;
-    const char *wrong = plr_dicom_scan(bytes.data, bytes.length, &set);
-    if (!wrong) {
-        all->open = plr_dicom_open(set.data, set.length, set.syntax, fault);
-        wrong = all->open ? NULL : fault;
-    }
+    all->is_open = true;
     all->open_file = index;
-    plr_dicom_set_free(&set);
-    release_file(all, &bytes);
-    return !wrong || fail(all, name, wrong);
+    return plr_dicom_frames_open(&all->frames, all->bytes.data, all->bytes.length, fault) ||
+           fail(all, name, fault);
 }
 
 static bool read_frame(void *user, const plr_dicom_slice *slice, void *out, size_t size,
-                       char photometric[32]) {
+                       bool *is_ybr) {
     collection *all = user;
     char fault[PLR_DICOM_FAULT] = "";
-    if ((!all->open || all->open_file != slice->file) && !open_file(all, slice->file))
+    if ((!all->is_open || all->open_file != slice->file) && !open_file(all, slice->file))
         return false;
     tell(all, 0.5 + (double)++all->frames_read / (double)all->slices.count / 2);
-    return plr_dicom_frame(all->open, slice->format.pixels, slice->frame, out, size, photometric,
-                           fault) ||
+    return plr_dicom_frames_read(&all->frames, slice, out, size, is_ybr, fault) ||
            fail(all, all->files[slice->file].name, fault);
 }
 

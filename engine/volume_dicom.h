@@ -17,8 +17,10 @@ typedef struct plr_dicom_set {
     size_t header;    /* bytes before the pixel data */
     size_t length;    /* with the pixel data; what follows is left out */
     char syntax[PLR_DICOM_UID];
-    size_t
-        fragments; /* of encapsulated pixel data, the offset table included; 0: not encapsulated */
+    size_t fragments; /* of packed pixel data, with the table of offsets; 0: not packed */
+    size_t value;     /* where the value of the pixel data begins */
+    bool big;         /* the most significant byte first */
+    bool is_bytes;    /* the pixel data are of VR OB */
     bool has_pixels;
     size_t pixels; /* bytes of pixel data */
     uint32_t pixel_tag;
@@ -31,13 +33,20 @@ void plr_dicom_set_free(plr_dicom_set *set);
 
 /* ---- Slices ---- */
 
+typedef enum plr_dicom_pixels {
+    PLR_DICOM_INTEGERS, /* (7FE0,0010) */
+    PLR_DICOM_FLOATS,   /* (7FE0,0008) */
+    PLR_DICOM_DOUBLES   /* (7FE0,0009) */
+} plr_dicom_pixels;
+
 /* How the samples of a slice are stored (PS3.3, C.7.6.3). */
 typedef struct plr_dicom_format {
     uint32_t columns, rows, samples;  /* 1 or 3 samples a pixel */
     uint32_t allocated, stored, high; /* bits */
     bool is_signed;
     bool inverted; /* MONOCHROME1 */
-    bool planar;   /* all of one colour, then all of the next */
+    bool is_ybr;
+    bool planar; /* all of one colour, then all of the next */
     plr_dicom_pixels pixels;
 } plr_dicom_format;
 
@@ -93,11 +102,30 @@ typedef struct plr_dicom_grid {
 bool plr_dicom_order(plr_dicom_slices *slices, uint32_t time_point, const plr_dicom_report *report,
                      plr_dicom_grid *grid, plr_volume *volume);
 
+/* ---- Frames ---- */
+
+/* A file whose frames are read. */
+typedef struct plr_dicom_frames {
+    plr_dicom_set set;
+    plr_dicom *library; /* that unpacks; NULL where nothing needs it */
+    bool is_rle;
+    size_t fragment, at; /* the last one that was looked for, and where it is */
+} plr_dicom_frames;
+
+/* `data` must stay as long as `frames`. To be closed also where it fails. */
+bool plr_dicom_frames_open(plr_dicom_frames *frames, const char *data, size_t length,
+                           char fault[PLR_DICOM_FAULT]);
+/* The stored pixels of a slice in native byte order: `size` bytes, with room for one more. Colours
+ * are in the order that the slice's format says. Quickest in the order of the file. */
+bool plr_dicom_frames_read(plr_dicom_frames *frames, const plr_dicom_slice *slice, void *out,
+                           size_t size, bool *is_ybr, char fault[PLR_DICOM_FAULT]);
+void plr_dicom_frames_close(plr_dicom_frames *frames);
+
 /* ---- Pixels ---- */
 
-/* Unpacks frames of an opened file. */
+/* Gets the stored pixels of a slice: `size` bytes; there is room for one more. */
 typedef bool (*plr_dicom_frame_reader)(void *user, const plr_dicom_slice *slice, void *out,
-                                       size_t size, char photometric[32]);
+                                       size_t size, bool *is_ybr);
 /* Makes the voxels of a volume whose geometry is known: frames are read in the order of files,
  * their values brought to one type, padding is filled, slices are resampled to the grid. Sets all
  * that is left of the volume. False with an error, or where `read` failed. */

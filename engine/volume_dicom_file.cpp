@@ -3,7 +3,6 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcistrmb.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
 #include <dcmtk/dcmjpls/djdecode.h>
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <cstring>
 #include <mutex>
 #include <vector>
 
@@ -58,7 +56,6 @@ dcmtk::log4cplus::LogLevel Silence::level;
 void register_decoders() {
     static std::once_flag once;
     std::call_once(once, [] {
-        DcmRLEDecoderRegistration::registerCodecs();
         DJDecoderRegistration::registerCodecs(EDC_photometricInterpretation, EUC_default,
                                               EPC_colorByPixel);
         DJLSDecoderRegistration::registerCodecs();
@@ -141,11 +138,6 @@ OFCondition read_set(DcmDataset &set, const char *data, size_t length, const cha
     return status;
 }
 
-const DcmTagKey &pixel_key(plr_dicom_pixels pixels) {
-    static const DcmTagKey keys[] = {DCM_PixelData, DCM_FloatPixelData, DCM_DoubleFloatPixelData};
-    return keys[pixels];
-}
-
 OFCondition unpack_frame(plr_dicom &file, DcmElement &element, size_t frame, void *out, size_t size,
                          OFString &photometric) {
     Uint32 needed = 0;
@@ -161,26 +153,6 @@ OFCondition unpack_frame(plr_dicom &file, DcmElement &element, size_t frame, voi
     file.next_frame = status.good() ? frame + 1 : 0;
     file.next_fragment = status.good() ? fragment : 0;
     return status;
-}
-
-template <typename Number>
-OFCondition copy_frame(const Number *values, size_t have, size_t frame, void *out, size_t size) {
-    size_t offset = frame * size;
-    if (!values || offset > have || size > have - offset)
-        return EC_CorruptedData;
-    std::memcpy(out, reinterpret_cast<const char *>(values) + offset, size);
-    return EC_Normal;
-}
-
-OFCondition copy_floats(DcmElement &element, plr_dicom_pixels pixels, size_t frame, void *out,
-                        size_t size) {
-    Float32 *floats = nullptr;
-    Float64 *doubles = nullptr;
-    if (pixels == PLR_DICOM_FLOATS && element.getFloat32Array(floats).good())
-        return copy_frame(floats, element.getLength(), frame, out, size);
-    if (pixels == PLR_DICOM_DOUBLES && element.getFloat64Array(doubles).good())
-        return copy_frame(doubles, element.getLength(), frame, out, size);
-    return EC_CorruptedData;
 }
 
 } // namespace
@@ -253,17 +225,15 @@ bool plr_dicom_has(const plr_dicom *file, uint32_t tag) {
     }
 }
 
-bool plr_dicom_frame(plr_dicom *file, plr_dicom_pixels pixels, size_t frame, void *out, size_t size,
-                     char photometric[32], char fault[PLR_DICOM_FAULT]) {
+bool plr_dicom_frame(plr_dicom *file, size_t frame, void *out, size_t size, char photometric[32],
+                     char fault[PLR_DICOM_FAULT]) {
     try {
         Silence silence;
         OFString model;
         DcmElement *element = nullptr;
-        OFCondition status = file->set.findAndGetElement(pixel_key(pixels), element);
+        OFCondition status = file->set.findAndGetElement(DCM_PixelData, element);
         if (status.good())
-            status = pixels == PLR_DICOM_INTEGERS
-                         ? unpack_frame(*file, *element, frame, out, size, model)
-                         : copy_floats(*element, pixels, frame, out, size);
+            status = unpack_frame(*file, *element, frame, out, size, model);
         std::snprintf(photometric, 32, "%s", model.c_str());
         if (status.bad())
             set_fault(fault, status.text());

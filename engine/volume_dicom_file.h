@@ -37,18 +37,11 @@ size_t plr_dicom_numbers(const plr_dicom *file, size_t frame, uint32_t group, ui
 void plr_dicom_text(const plr_dicom *file, uint32_t tag, char *text, size_t size);
 bool plr_dicom_has(const plr_dicom *file, uint32_t tag);
 
-/* Which pixel data a frame is read from. */
-typedef enum plr_dicom_pixels {
-    PLR_DICOM_INTEGERS, /* (7FE0,0010) */
-    PLR_DICOM_FLOATS,   /* (7FE0,0008) */
-    PLR_DICOM_DOUBLES   /* (7FE0,0009) */
-} plr_dicom_pixels;
-
-/* Unpacks a frame in native byte order: exactly `size` bytes; there must be room for one more where
- * that is odd. Quickest in order of frames.
- * `photometric` becomes that of what was unpacked. */
-bool plr_dicom_frame(plr_dicom *file, plr_dicom_pixels pixels, size_t frame, void *out, size_t size,
-                     char photometric[32], char fault[PLR_DICOM_FAULT]);
+/* Unpacks a frame of JPEG or the like in native byte order, colours by pixel: exactly `size` bytes;
+ * there must be room for one more where that is odd. Quickest in order of frames. `photometric`
+ * becomes that of what was unpacked. */
+bool plr_dicom_frame(plr_dicom *file, size_t frame, void *out, size_t size, char photometric[32],
+                     char fault[PLR_DICOM_FAULT]);
 
 #ifdef __cplusplus
 }

@@ -90,6 +90,7 @@ static bool read_photometric(const plr_dicom *file, const plr_dicom_set *set,
             (photometrics[i].packed_alone && !set->fragments))
             continue;
         format->inverted = photometrics[i].inverted;
+        format->is_ybr = name[0] == 'Y';
         return photometrics[i].samples == format->samples ||
                fail(fault, "%u samples a pixel do not go with %s", format->samples, name);
     }

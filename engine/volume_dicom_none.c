@@ -44,10 +44,9 @@ bool plr_dicom_has(const plr_dicom *file, uint32_t tag) {
     return false;
 }
 
-bool plr_dicom_frame(plr_dicom *file, plr_dicom_pixels pixels, size_t frame, void *out, size_t size,
-                     char photometric[32], char fault[PLR_DICOM_FAULT]) {
+bool plr_dicom_frame(plr_dicom *file, size_t frame, void *out, size_t size, char photometric[32],
+                     char fault[PLR_DICOM_FAULT]) {
     (void)file;
-    (void)pixels;
     (void)frame;
     (void)out;
     (void)size;

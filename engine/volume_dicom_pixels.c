@@ -257,13 +257,13 @@ static bool read_frames(work *w, plr_dicom_frame_reader read, void *user) {
         qsort(sources, slices->count, sizeof *sources, compare_sources);
     for (size_t i = 0; ok && i < slices->count; i++) {
         const plr_dicom_slice *slice = sources[i];
-        char photometric[32] = "";
+        bool is_ybr = false;
         size_t start = (size_t)(slice - slices->items) * pixel_count(&slice->format);
-        ok = read(user, slice, frame, frame_size(&slice->format), photometric);
+        ok = read(user, slice, frame, frame_size(&slice->format), &is_ybr);
         if (ok && slice->format.samples == 1)
             convert_grey(w, slice, frame, start);
         else if (ok)
-            convert_colour(w, slice, frame, start, strncmp(photometric, "YBR", 3) == 0);
+            convert_colour(w, slice, frame, start, is_ybr);
     }
     free(frame);
     free(sources);

@@ -200,12 +200,13 @@ static bool walk_pixels(walker *w, plr_dicom_set *set) {
         return false;
     set->has_pixels = true;
     set->pixel_tag = e.tag;
-    size_t start = w->at;
+    set->value = w->at;
+    set->is_bytes = memcmp(e.vr, "OB", 2) == 0;
     if (e.length != UNDEFINED)
         w->at += e.length;
     else if (!walk_fragments(w, &set->fragments))
         return false;
-    set->pixels = w->at - start;
+    set->pixels = w->at - set->value;
     return true;
 }
 
@@ -322,6 +323,7 @@ const char *plr_dicom_scan(const char *data, size_t length, plr_dicom_set *set) 
     w.implicit = strcmp(set->syntax, implicit_syntax) == 0;
     w.big = strcmp(set->syntax, big_syntax) == 0;
     set->data = (const char *)w.data;
+    set->big = w.big;
     return walk_set(&w, set);
 }
 

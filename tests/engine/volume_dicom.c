@@ -296,6 +296,7 @@ int main(void) {
     test_change("cut", "scene.x3d:7:3 error b cannot be read as DICOM: an element is longer than "
                        "what is left of the file");
     test_change("gone", "scene.x3d:7:3 error b does not exist");
-    test_change("smaller", "scene.x3d:7:3 error b cannot be read as DICOM: Corrupted data");
+    test_change("smaller",
+                "scene.x3d:7:3 error b cannot be read as DICOM: its pixel data are damaged");
     return tap_done();
 }

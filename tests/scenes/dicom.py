@@ -344,6 +344,9 @@ def encodings():
                     dicom(image(3, 1, [1, 2, 250], bits=bits, big=syntax == d.BIG), syntax),
                     [1, 2, 250], 0, 255)
              for bits in (8, 32) for name, syntax in (("little", d.LITTLE), ("big", d.BIG))]
+    odd = image(3, 1, range(1, 10), bits=8, big=True, x00280008=3)
+    cases.append(Case("odd frames, big endian", "a.dcm", {"a.dcm": dicom(odd, d.BIG)},
+                      range(1, 10), (3, 3)))
     values = [-1.5, 0.25, 3]
     for name, tag in (("float", "x7FE00008"), ("double", "x7FE00009")):
         content = dicom(image(3, 1, b"", bits=32, x7FE00010=None, **{tag: values}))
@@ -504,6 +507,13 @@ def faults():
         ("packed frames that are not there",
          dicom({**header, 0x00280008: 2}, d.RLE, d.fragments([d.rle_frame([b"1234", b"1234"])])),
          "it holds 100 bytes of pixels, too few for the 2 x 2 x 2 of its header"),
+        ("run lengths that end early",
+         dicom(header, d.RLE, d.fragments([d.rle_frame([b"1234", b"123"])])),
+         "its pixel data are damaged"),
+        ("run lengths that begin elsewhere",
+         dicom(header, d.RLE, d.fragments([struct.pack("<16I", 2, 64, 0x7FFFFFF0, *[0] * 13)
+                                           + d.rle_frame([b"1234"])])),
+         "its pixel data are damaged"),
         ("packed rubbish", dicom(header, d.RLE, d.fragments([b"rubbish!" * 10])), None),
         ("packed rubbish, JPEG", dicom(header, d.JPEG_LOSSLESS, d.fragments([b"rubbish!" * 10])),
          None),
