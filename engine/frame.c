@@ -93,6 +93,31 @@ void plr_frame_jitter(plr_frame *frame, int sample, int samples) {
     frame->projection = plr_matrix_multiply(&shift, &frame->projection);
 }
 
+/* As the raycaster does it. */
+void plr_frame_ray(const plr_frame *frame, double x, double y, plr_ray *ray) {
+    const double *p = frame->projection.m, *v = frame->viewport;
+    double ndc[2] = {(x - v[0]) / v[2] * 2 - 1, (y - v[1]) / v[3] * 2 - 1};
+    *ray = (plr_ray){.direction = {0, 0, -1}};
+    if (p[11] == 0) {
+        ray->origin[0] = (ndc[0] - p[12]) / p[0];
+        ray->origin[1] = (ndc[1] - p[13]) / p[5];
+        return;
+    }
+    ray->direction[0] = (ndc[0] + p[8]) / p[0];
+    ray->direction[1] = (ndc[1] + p[9]) / p[5];
+    double length =
+        sqrt(ray->direction[0] * ray->direction[0] + ray->direction[1] * ray->direction[1] + 1);
+    for (int i = 0; i < 3; i++)
+        ray->direction[i] /= length;
+}
+
+double plr_frame_distance(const plr_frame *frame, const plr_ray *ray, double depth) {
+    const double *p = frame->projection.m;
+    double ndc = frame->reversed_depth ? depth : 2 * depth - 1;
+    double z = p[11] != 0 ? -p[14] / (ndc + p[10]) : (ndc - p[14]) / p[10];
+    return z / ray->direction[2];
+}
+
 bool plr_frame_reversed(const plr_view *view) {
     return view->engine->gl.ClipControl != NULL;
 }

@@ -28,6 +28,19 @@ plr_matrix plr_frame_cube_face(const double place[3], int face);
 /* Shifts the frame to one of several samples of its pixels. */
 void plr_frame_jitter(plr_frame *frame, int sample, int samples);
 
+/* A ray in eye space, of length 1 for each unit of t. */
+typedef struct plr_ray {
+    double origin[3], direction[3];
+} plr_ray;
+
+/* The ray through a place of the framebuffer, in pixels from the bottom left. */
+void plr_frame_ray(const plr_frame *frame, double x, double y, plr_ray *ray);
+/* Where along the ray a depth of the depth buffer is. */
+double plr_frame_distance(const plr_frame *frame, const plr_ray *ray, double depth);
+/* Where the ray runs in the box of a volume, from the eye on; false if nowhere. */
+bool plr_volume_crossed(const plr_volume_state *volume, const plr_frame *frame, const plr_ray *ray,
+                        double range[2]);
+
 /* Whether our own framebuffers have reversed depths. */
 bool plr_frame_reversed(const plr_view *view);
 /* The depth conventions of our own framebuffers; not for those of hosts. */

@@ -124,7 +124,8 @@ static void flip_rows(float *pixels, size_t row, size_t height) {
         }
 }
 
-bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels) {
+static bool read(const plr_framebuffer *framebuffer, GLenum format, size_t components,
+                 float *pixels) {
     static const GLenum names[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
                                    GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
     enum {
@@ -140,14 +141,22 @@ bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels) {
     }
     forget_errors(gl);
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer->name);
-    gl->ReadPixels(0, 0, framebuffer->width, framebuffer->height, GL_RGBA, GL_FLOAT, pixels);
-    bool read = gl->GetError() == GL_NO_ERROR;
+    gl->ReadPixels(0, 0, framebuffer->width, framebuffer->height, format, GL_FLOAT, pixels);
+    bool fine = gl->GetError() == GL_NO_ERROR;
     for (size_t i = 0; i < COUNT; i++)
         gl->PixelStorei(names[i], pack[i]);
     restore(gl, &state);
-    if (read)
-        flip_rows(pixels, (size_t)framebuffer->width * 4, (size_t)framebuffer->height);
-    return read;
+    if (fine)
+        flip_rows(pixels, (size_t)framebuffer->width * components, (size_t)framebuffer->height);
+    return fine;
+}
+
+bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels) {
+    return read(framebuffer, GL_RGBA, 4, pixels);
+}
+
+bool plr_framebuffer_read_depth(const plr_framebuffer *framebuffer, float *depths) {
+    return read(framebuffer, GL_DEPTH_COMPONENT, 1, depths);
 }
 
 /* ---- Depths apart ---- */

@@ -26,6 +26,8 @@ void plr_framebuffer_destroy(plr_framebuffer *framebuffer);
 void plr_framebuffer_bind(const plr_framebuffer *framebuffer);
 /* Reads width * height RGBA floats, top row first. No state of the context changes. */
 bool plr_framebuffer_read(const plr_framebuffer *framebuffer, float *pixels);
+/* Reads width * height depths, top row first. No state of the context changes. */
+bool plr_framebuffer_read_depth(const plr_framebuffer *framebuffer, float *depths);
 
 /* ---- Depths apart ---- */
 

@@ -6,6 +6,7 @@
 #include "engine/dialect.h"
 #include "engine/frame.h"
 #include "engine/ignored.h"
+#include "engine/pick.h"
 #include "engine/state.h"
 #include "engine/targets.h"
 #include "engine/unreached.h"
@@ -136,6 +137,7 @@ void plr_view_destroy(plr_view **view) {
         v->engine->gl.DeleteFramebuffers(1, &v->color_only);
         v->engine->gl.DeleteVertexArrays(1, &v->empty_vertex_array);
     }
+    plr_picked_data_free(&v->picked);
     plr_textures_finish(&v->textures);
     plr_composer_finish(&v->composer);
     plr_kitchen_finish(&v->kitchen);

@@ -112,6 +112,46 @@ PLR_API void plr_picture_free(plr_picture *picture);
 PLR_API bool plr_view_draw_here(plr_view *view, const double *projection, const double *camera,
                                 plr_diags *diags);
 
+/* What is seen in a pixel. */
+typedef struct plr_pick {
+    const plr_node *volume; /* whose data are seen there; NULL: none */
+    size_t volume_index;    /* among the volumes that are drawn, in the order of the scene */
+    const plr_node *shape;  /* the opaque shape that is seen, where no volume is; NULL: none */
+    size_t shape_index;     /* among all shapes, in the order of the scene */
+    double position[3];     /* in world coordinates */
+    double distance;        /* along the ray from the eye, or from its plane (OrthoViewpoint) */
+    int surface;            /* number of the surface of equal value; -1: none */
+    uint32_t components;
+    double value[4];    /* of the voxels, interpolated, 0 to 1 */
+    double physical[4]; /* the same in the units of the file, not clamped */
+    bool has_segment;
+    uint32_t segment;
+    char label[256]; /* what the data call the segment; "": nothing */
+} plr_pick;
+
+/* Looks along the ray through the centre of a pixel of such a picture (column and row from the top
+ * left, from 0). A volume is seen at the first sample at which what is accumulated reaches an
+ * opacity of 1/255, or at the surface or projection that does so; behind opaque shapes and where it
+ * is cut away it is not. Shapes that are translucent are looked through. True if nothing is seen,
+ * too: then `volume` and `shape` are NULL. False if the pixel is not in the picture, without an
+ * engine or memory. The first pick compiles programs. State of the GL context is set back. Needs
+ * GL. */
+PLR_API bool plr_view_pick(plr_view *view, const plr_draw_desc *desc, int x, int y, plr_pick *pick,
+                           plr_diags *diags);
+
+/* Where a ray crosses the box of a volume. */
+typedef struct plr_box_pick {
+    const plr_node *volume;
+    size_t volume_index;
+    double entry[3], exit[3]; /* in world coordinates; the eye is the entry where it is inside */
+    double distance;          /* of the entry */
+} plr_box_pick;
+
+/* The nearest box of a volume along the ray through the centre of a pixel, as a TouchSensor would
+ * have it: whatever is in it, whatever is before it. False if there is none. No GL. */
+PLR_API bool plr_view_pick_box(const plr_view *view, const plr_draw_desc *desc, int x, int y,
+                               plr_box_pick *pick);
+
 /* Writes by the ending of `path`: .png (8-bit; opaque over black, or straight alpha if
  * `transparent`), .exr (float, premultiplied), .npy (float32, height x width x 4). */
 PLR_API bool plr_picture_write(const plr_picture *picture, const char *path, bool transparent,

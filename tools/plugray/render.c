@@ -7,7 +7,7 @@
 #include "tools/plugray/commands.h"
 #include "tools/plugray/files.h"
 #include "tools/plugray/frames.h"
-#include "tools/plugray/json.h"
+#include "tools/plugray/pick.h"
 #include "tools/plugray/progress.h"
 #include "tools/plugray/scene.h"
 #include "tools/plugray/stats.h"
@@ -25,6 +25,7 @@ typedef struct render_job {
     frame_plan frames;
     long repeat; /* 0: one draw without a warm-up */
     int stats;   /* one of the below */
+    bool draws;  /* else it only picks */
     tool_scene scene;
     plr_context *context;
     plr_engine *engine;
@@ -50,17 +51,18 @@ static bool has_picture_ending(const char *path) {
     return false;
 }
 
-static bool check_probes(const render_job *job) {
+/* An option whose values are pixels. */
+static bool check_pixels(const render_job *job, tool_option option, const char *name) {
     const tool_arguments *a = job->arguments;
     const char *text;
-    for (size_t next = 0; (text = option_next(a, OPTION_PROBE, &next));) {
+    for (size_t next = 0; (text = option_next(a, option, &next));) {
         long at[2];
         if (!read_pair(text, ',', 0, MAX_SIDE, at)) {
-            usage_error(a, "--probe takes X,Y in pixels from 0, not '%s'", text);
+            usage_error(a, "%s takes X,Y in pixels from 0, not '%s'", name, text);
             return false;
         }
         if (at[0] >= job->draw.width || at[1] >= job->draw.height) {
-            usage_error(a, "--probe %s lies outside the %dx%d pixels", text, job->draw.width,
+            usage_error(a, "%s %s lies outside the %dx%d pixels", name, text, job->draw.width,
                         job->draw.height);
             return false;
         }
@@ -106,8 +108,9 @@ static bool read_outputs(render_job *job) {
         usage_error(a, "-o takes a file that ends in .png, .exr or .npy, not '%s'", job->path);
         return false;
     }
-    if (!job->path && !job->stats && !option_value(a, OPTION_PROBE)) {
-        usage_error(a, "at least one of -o, --probe, --stats is needed");
+    job->draws = job->path || job->stats || option_value(a, OPTION_PROBE);
+    if (!job->draws && !option_value(a, OPTION_PICK)) {
+        usage_error(a, "at least one of -o, --probe, --pick, --stats is needed");
         return false;
     }
     return true;
@@ -116,7 +119,8 @@ static bool read_outputs(render_job *job) {
 static bool read_options(render_job *job) {
     const tool_arguments *a = job->arguments;
     long samples = 1;
-    if (!read_outputs(job) || !read_size(job) || !read_backend(job) || !check_probes(job) ||
+    if (!read_outputs(job) || !read_size(job) || !read_backend(job) ||
+        !check_pixels(job, OPTION_PROBE, "--probe") || !check_pixels(job, OPTION_PICK, "--pick") ||
         !frames_read(a, &job->frames) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
         !option_integer(a, OPTION_SAMPLES, 1, 4096, &samples) ||
         !option_integer(a, OPTION_REPEAT, 1, 1000000, &job->repeat))
@@ -202,6 +206,19 @@ static void print_probes(const render_job *job) {
     }
 }
 
+static bool print_picks(render_job *job) {
+    const char *text;
+    for (size_t next = 0; (text = option_next(job->arguments, OPTION_PICK, &next));) {
+        long at[2];
+        plr_pick pick;
+        read_pair(text, ',', 0, MAX_SIDE, at);
+        if (!plr_view_pick(job->view, &job->draw, (int)at[0], (int)at[1], &pick, job->scene.diags))
+            return false;
+        pick_print(stdout, &pick);
+    }
+    return true;
+}
+
 static void write_picture(render_job *job, long frame) {
     plr_diags *diags = job->scene.diags;
     char *path = job->path ? frames_path(&job->frames, job->path, frame) : NULL;
@@ -226,10 +243,14 @@ static bool draw_frames(render_job *job) {
         if (i > 0 && !plr_view_update(job->view, frames_time(&job->frames, i), job->scene.diags))
             return false;
         progress("drawing");
-        if (!draw(job))
+        if (job->draws && !draw(job))
             return false;
         progress("writing");
-        write_picture(job, i);
+        if (job->draws)
+            write_picture(job, i);
+        progress(NULL);
+        if (!print_picks(job))
+            return false;
     }
     return true;
 }
