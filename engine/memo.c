@@ -58,9 +58,9 @@ static void put_effect(writer *w, const plr_effect *effect, const plr_node *node
     put_sources(w, effect->sources, effect->source_count);
     put_defines(w, effect->defines, effect->define_count);
     put_number(w, effect->attached);
-    put_number(w, (size_t)effect->placement << 4 | (size_t)effect->only_attached << 3 |
-                      (size_t)effect->builtin << 2 | (size_t)effect->disabled << 1 |
-                      (size_t)effect->only_if_active);
+    put_number(w, (size_t)effect->placement << 5 | (size_t)effect->private_plugs << 4 |
+                      (size_t)effect->only_attached << 3 | (size_t)effect->builtin << 2 |
+                      (size_t)effect->disabled << 1 | (size_t)effect->only_if_active);
     if (!effect->builtin) /* its fields are compared with its uniforms */
         put(w, &node, sizeof node);
 }

@@ -17,6 +17,16 @@ typedef struct plr_shadow {
  * GeneratedShadowMap among its textures. */
 void plr_recipe_shadows(plr_view *view, plr_recipe *recipe, size_t from, size_t volume,
                         const plr_node *appearance);
+/* ---- Of volumes (volume_shadows.c) ---- */
+
+/* The lights of the recipe from effect `from` on stand in the shadow of volumes. */
+void plr_recipe_receive(plr_view *view, plr_recipe *recipe, size_t from);
+/* Adds what such lights ask, where there are some: after the last of them. `skips_clear`: the light
+ * on what is transparent does not matter. */
+void plr_recipe_volume_shadows(plr_view *view, plr_recipe *recipe, bool skips_clear);
+
+/* ---- Maps ---- */
+
 /* The shadow that is drawn into a GeneratedShadowMap, made if there is none; NULL without a light.
  */
 plr_shadow *plr_shadow_of_map(plr_view *view, const plr_node *map, plr_texture *texture);

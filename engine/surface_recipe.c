@@ -21,7 +21,9 @@ void plr_shape_lights(plr_shape *shape) {
         return;
     size_t from = shape->recipe->effects.count;
     plr_pass_lights(shape->view, shape->recipe, shape->leaf->scope, 0, PLR_NO_EFFECT);
+    plr_recipe_receive(shape->view, shape->recipe, from);
     plr_recipe_shadows(shape->view, shape->recipe, from, PLR_NO_EFFECT, shape->appearance);
+    plr_recipe_volume_shadows(shape->view, shape->recipe, false);
 }
 
 static void define_surface(plr_shape *shape) {

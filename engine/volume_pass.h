@@ -25,7 +25,7 @@ const plr_node *plr_surface_style(const plr_node *style);
 /* Whether the styles of a volume node draw anything at all. */
 bool plr_volume_has_styles(const plr_volume_state *state);
 /* Adds the styles of a volume, attached to its effect, to a recipe; `lights` says where the light
- * comes from. */
+ * comes from. NULL: there is none, of styles that only say what is opaque. */
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
                            const plr_scope *lights, plr_diags *diags);
 
@@ -37,5 +37,17 @@ void plr_volume_order(plr_view *view, size_t *members, size_t count);
 /* ---- Programs (volume_recipe.c) ---- */
 
 void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
+/* The clip planes of a volume: its own, in the node's coordinates, and those of the scene around it.
+ */
+void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached);
+
+/* ---- Shadows (volume_shadows.c) ---- */
+
+/* Whether a style asks for shadows. */
+bool plr_style_has_shadows(const plr_node *style);
+/* Finds which volumes cast some. */
+void plr_volume_find_shadows(plr_view *view);
+/* Whether colours of what is transparent matter to nothing in the volume. */
+bool plr_volume_skips_clear(const plr_view *view, size_t volume);
 
 #endif

@@ -174,11 +174,16 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     plr_volume_pass *pass = &view->volumes;
     plr_recipe *recipe = &cast->pass.recipe;
     plr_kitchen *k = &view->kitchen;
-    *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster")};
+    *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster"),
+                           .casts_rays = true};
     define_loop(view, cast, early_end);
     size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
     for (size_t i = 0; i < cast->count; i++)
         add_volume(view, recipe, cast->members[i], &attached[i], diags);
+    bool skips_clear = true;
+    for (size_t i = 0; i < cast->count; i++)
+        skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);
+    plr_recipe_volume_shadows(view, recipe, skips_clear);
     bool skips_clear = true;
     for (size_t i = 0; i < cast->count; i++)
         skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);

@@ -13,6 +13,7 @@ void plr_world_prepare(plr_view *view, plr_diags *diags) {
     view->background.node = view->flat.background;
     view->background.to_world = view->flat.background_to_world;
     plr_background_prepare(view, &view->background);
+    plr_volume_pass_find(view, diags);
     plr_surfaces_prepare(view, diags);
     plr_volume_pass_prepare(view, diags);
     plr_casters_prepare(view);
@@ -23,6 +24,8 @@ static void find_gradient_units(plr_view *view) {
     bool needed = false;
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         needed = needed || plr_bind_needs(&view->volumes.casts[i].pass.slots, "gradientUnit");
+    for (size_t i = 0; view->volumes.caster_count && i < view->model_count; i++)
+        needed = needed || plr_bind_needs(&view->models[i]->pass.slots, "gradientUnit");
     for (size_t i = 0; i < view->volumes.grids.count; i++) {
         plr_grid *grid = view->volumes.grids.items[i];
         if (grid->gradient_unit > 0 || !needed)

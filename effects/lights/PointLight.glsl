@@ -13,6 +13,10 @@ uniform float radius = 100.0;
 /* Also for effects on this light: where it stands. */
 uniform vec3 light_location_eye = vec3(0.0);
 
+#if defined(IN_SHADOW)
+uniform float shadowIntensity = 1.0;
+#endif
+
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
     vec3 to_light = light_location_eye - vertex_eye.xyz;
@@ -24,6 +28,12 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
     vec3 reflected = intensity * material_reflection(material, vertex_eye, normal_eye, light_dir);
+#if defined(IN_SHADOW)
+    float shadow = 0.0;
+    vec4 brought = vec4(scale * reflected, lit.a);
+    /* PLUG: light_shadow (shadow, brought, vertex_eye, light_dir, far) */
+    reflected *= 1.0 - shadowIntensity * shadow;
+#endif
 #if !defined(NO_AMBIENT)
     reflected += ambientIntensity * material.ambient;
 #endif

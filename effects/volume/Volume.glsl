@@ -29,9 +29,9 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
     ray_speed = length(direction);
     ray_origin = (eyeToLocal * vec4(origin_eye, 1.0)).xyz / dimensions + 0.5;
     ray_direction = direction / dimensions;
-    vec2 ends = cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction);
-    enter = max(ends.x, start);
-    leave = min(ends.y, limit);
+    enter = start;
+    leave = limit;
+    cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
 #if PLUG_USED(volume_ray)
     float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */
