@@ -64,8 +64,6 @@ typedef struct plr_volume_pass {
     } grids;         /* of the volumes and of their styles */
     size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
     size_t caster_count;
-    size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
-    size_t caster_count;
 } plr_volume_pass;
 
 /* A shape with its program: shared by all places where it stands under the same lights and
@@ -191,8 +189,6 @@ void plr_world_prepare(plr_view *view, plr_diags *diags);
 /* Locations of all its programs. Needs GL. */
 void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
-/* Finds which volumes there are, and which cast shadows; then makes their programs. */
-void plr_volume_pass_find(plr_view *view, plr_diags *diags);
 /* Finds which volumes there are, and which cast shadows; then makes their programs. */
 void plr_volume_pass_find(plr_view *view, plr_diags *diags);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);

@@ -184,10 +184,6 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     for (size_t i = 0; i < cast->count; i++)
         skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);
     plr_recipe_volume_shadows(view, recipe, skips_clear);
-    bool skips_clear = true;
-    for (size_t i = 0; i < cast->count; i++)
-        skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);
-    plr_recipe_volume_shadows(view, recipe, skips_clear);
     plr_recipe_builtin(k, recipe, "volume/Composite", "Composite",
                        (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
     plr_recipe_attached_authors(&view->kitchen, recipe, "X3DLightNode");
