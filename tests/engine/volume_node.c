@@ -64,8 +64,7 @@ static void check_fault(const char *texture, const char *message) {
     plr_diags_destroy(&diags);
 }
 
-/* ---- PixelTexture3D, ComposedTexture3D
- * --------------------------------------------------------------- */
+/* ---- PixelTexture3D, ComposedTexture3D ---- */
 
 static void test_pixels(void) {
     plr_volume v;
@@ -101,8 +100,7 @@ static void test_slices(void) {
     check_fault("ComposedTexture3D { }", "scene.x3dv:4:14 error 0 slices are outside 1..16384");
 }
 
-/* ---- ImageTexture3D
- * ------------------------------------------------------------------------------------- */
+/* ---- ImageTexture3D ---- */
 
 static bool is_volume(const plr_volume *v, uint32_t width, const char *bytes) {
     return v->size[0] == width && v->size[1] == 1 && v->size[2] == 1 && v->voxels &&
