@@ -108,9 +108,14 @@ void plr_bounds_show(plr_bounds *b, const plr_node *node, const plr_matrix *insi
                       "only where bboxSize is given");
         return;
     }
+    bool may_work = b->work <= MOST_WORK;
     if (!given)
         box = box_of_leaves(b, inside, first_shape, first_volume);
-    if (!edges || is_empty(&box) || b->work > MOST_WORK)
+    if (may_work && b->work > MOST_WORK)
+        plr_diags_add(b->diags, PLR_CODE_LIMIT, plr_node_place(node),
+                      "too many things are in boxes: from here on boxes that are not given are "
+                      "left out");
+    if (!edges || is_empty(&box) || (!given && b->work > MOST_WORK))
         return;
     plr_matrix move =
         plr_matrix_translation((box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2,

@@ -71,7 +71,9 @@ static size_t fuzz_scene(const char *text, size_t length) {
             .world_to_eye = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -9, 1},
             .projection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -2, 0}};
         plr_scene_set_time(scene, 1.3, &viewer, diags);
+        plr_scene_set_2005(scene, true);
         plr_scene_set_time(scene, 0, NULL, diags);
+        plr_scene_set_2005(scene, false);
         memset(seen, 0, plr_scene_node_count(scene));
         for (size_t i = 0; i < plr_scene_root_count(scene); i++)
             fuzz_node(scene, plr_scene_root(scene, i), seen, &sum);
