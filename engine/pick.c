@@ -112,7 +112,7 @@ static sight look(const spot *s, plr_cast *cast) {
                              s->framebuffer.color, 0);
     gl->ClearColor(0, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT);
-    plr_cast_pick(view, picking_of(view, cast), &s->frame);
+    plr_cast_draw(view, picking_of(view, cast), &s->frame);
     plr_framebuffer_read(&s->framebuffer, pixel);
     if (!(pixel[3] > 0) || !(pixel[1] >= 0))
         return (sight){.t = INFINITY};

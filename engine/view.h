@@ -64,6 +64,8 @@ typedef struct plr_volume_pass {
     } grids;         /* of the volumes and of their styles */
     size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
     size_t caster_count;
+    size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
+    size_t caster_count;
 } plr_volume_pass;
 
 /* A shape with its program: shared by all places where it stands under the same lights and
@@ -191,6 +193,8 @@ void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
 /* Finds which volumes there are, and which cast shadows; then makes their programs. */
 void plr_volume_pass_find(plr_view *view, plr_diags *diags);
+/* Finds which volumes there are, and which cast shadows; then makes their programs. */
+void plr_volume_pass_find(plr_view *view, plr_diags *diags);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
 /* The gradient that counts as 1 where no author says so; never 0. */
 double plr_volume_steepness(plr_view *view, const plr_grid *grid);
@@ -213,11 +217,9 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
 /* Clears colour and depth, then draws the background. `behind`: the colour where there is none. */
 void plr_background_draw(plr_view *view, const plr_background *background, const plr_frame *frame,
                          const float behind[4]);
-/* Draws one cast; depths say in which order (plr_volume_depths). */
+/* Draws one cast; depths say in which order (plr_volume_depths). One that picks writes what is seen:
+ * where along the ray, volume, surface, 1; or zeros. */
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
-/* Writes what is seen, for a cast that picks: where along the ray (a number too large: nothing),
- * volume, surface, 1. */
-void plr_cast_pick(plr_view *view, const plr_cast *cast, const plr_frame *frame);
 /* Whether some translucent surface is inside one of its volumes; no GL. */
 bool plr_cast_is_divided(const plr_view *view, const plr_cast *cast);
 /* Whether the surface meets the box of one of its volumes. */

@@ -55,16 +55,6 @@ void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame)
     run(view, cast, frame);
 }
 
-void plr_cast_pick(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
-    const plr_gl *gl = &view->engine->gl;
-    if (!cast->pass.built)
-        return;
-    gl->Disable(GL_DEPTH_TEST);
-    gl->DepthMask(GL_FALSE);
-    gl->Disable(GL_BLEND);
-    run(view, cast, frame);
-}
-
 static plr_matrix eye_to_local(const plr_volume_state *volume, const plr_frame *frame) {
     plr_matrix to_eye = plr_matrix_multiply(&frame->view, &volume->to_world), to_local;
     plr_matrix_invert(&to_eye, &to_local);

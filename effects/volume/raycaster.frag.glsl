@@ -252,7 +252,7 @@ void main() {
 #endif
     /* PLUG: volume_ray_end (accumulated, depth) */
 #if PICKS
-    plugray_FragColor = vec4(ended_at, picked, ended_at < NOWHERE);
+    plugray_FragColor = ended_at < NOWHERE ? vec4(ended_at, picked, 1.0) : vec4(0.0);
 #else
     plugray_FragColor = accumulated;
 #endif
