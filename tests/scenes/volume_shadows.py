@@ -133,7 +133,7 @@ def aside(text):
 
 @suite.case
 def on_a_surface():
-    "a surface behind a volume: light times exp(-depth), ambient light unchanged"
+    "T20: a surface behind a volume: light times exp(-depth), ambient light unchanged"
     through = [math.exp(-SIGMA * way) for way in ways()]
     suite.check("the test sees shadow and light", through[0] < 0.7 and through[-1] == 1)
     suite.close("light", on_floor(ASLANT, aside(cloud())), [ARRIVES * t for t in through])
