@@ -21,7 +21,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
         {"HAS_LABELS", state->labels ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_PROJECTED ? "1" : "0"}};
-    plr_define *extra = PLR_NEW_ARRAY(&view->arena, 3, plr_define);
+    plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
     return plr_recipe_builtin(&view->kitchen, recipe, volume_units[state->kind],
                               plr_node_type(state->node),
