@@ -4,7 +4,7 @@
 import math
 
 from harness import Suite, box_interval, load_json, unit
-from scenes import FRONT, NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
+from scenes import NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
 
 suite = Suite()
 SIZE = 32

@@ -5,8 +5,8 @@ import math
 import os
 import re
 
-from harness import HEADER, Suite, box_interval, opacity, over, premultiplied, unit
-from scenes import FRONT, NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
+from harness import Suite, box_interval, opacity, over, premultiplied, unit
+from scenes import NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
 
 suite = Suite()
 
