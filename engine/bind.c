@@ -314,7 +314,10 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
         gl->Uniform1i(slot->location, (GLint)slot->field->count);
         return;
     case SLOT_VOXELS:
-        plr_texture_bind(textures, slot->binding->grid->voxels, slot->unit, PLR_USE_CLAMPED);
+        plr_texture_bind(textures,
+                         slot->binding->grid->brick ? slot->binding->grid->brick
+                                                    : slot->binding->grid->voxels,
+                         slot->unit, PLR_USE_CLAMPED);
         break;
     case SLOT_LABELS:
         if (volume && volume->labels)

@@ -37,6 +37,12 @@ typedef struct plr_grid {
     double range[2];      /* the physical values that are 0 and 1 */
     double dimensions[3]; /* of the box, own coordinates */
     double gradient_unit; /* 0: not asked for yet */
+    /* Voxels that no texture holds are cast in bricks of so many; 0: they are not. What follows is
+     * of the brick that is drawn. */
+    uint32_t brick_sides[3];
+    plr_texture *brick;
+    double brick_box[2][3];                /* in texture coordinates of the whole */
+    double brick_scale[3], brick_shift[3]; /* from these to the brick's texture */
 } plr_grid;
 
 /* What a volume does along a ray. */

@@ -126,6 +126,26 @@ static void v_gradient_unit(const plr_known_context *c, float *out) {
 static void v_gradient_most(const plr_known_context *c, float *out) {
     out[0] = plr_node_number(c->volume->node, "gradientUnit") > 0 ? 3e38f : 1;
 }
+static void put_vector(const double *from, float *out) {
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)from[i];
+}
+static void v_voxel_count(const plr_known_context *c, float *out) {
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)c->binding->grid->size[i];
+}
+static void v_brick_low(const plr_known_context *c, float *out) {
+    put_vector(c->binding->grid->brick_box[0], out);
+}
+static void v_brick_high(const plr_known_context *c, float *out) {
+    put_vector(c->binding->grid->brick_box[1], out);
+}
+static void v_brick_scale(const plr_known_context *c, float *out) {
+    put_vector(c->binding->grid->brick_scale, out);
+}
+static void v_brick_shift(const plr_known_context *c, float *out) {
+    put_vector(c->binding->grid->brick_shift, out);
+}
 static void v_surface_count(const plr_known_context *c, float *out) {
     out[0] = (float)c->volume->surface_count;
 }
@@ -233,6 +253,11 @@ static const plr_known known[] = {
     {"referenceLength", OWNER_VOLUME, v_reference},
     {"gradientUnit", OWNER_GRID, v_gradient_unit},
     {"gradientMost", OWNER_VOLUME, v_gradient_most},
+    {"voxelCount", OWNER_GRID, v_voxel_count},
+    {"brickLow", OWNER_GRID, v_brick_low},
+    {"brickHigh", OWNER_GRID, v_brick_high},
+    {"brickScale", OWNER_GRID, v_brick_scale},
+    {"brickShift", OWNER_GRID, v_brick_shift},
     {"surfaceCount", OWNER_VOLUME, v_surface_count},
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
     {"segmentMapCount", OWNER_VOLUME, v_map_count},

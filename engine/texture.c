@@ -93,7 +93,7 @@ bool plr_textures_upload(plr_textures *t) {
     bool fine = true;
     for (size_t i = 0; i < t->list.count; i++) {
         plr_texture *texture = t->list.items[i];
-        if (texture->name || !(texture->image.samples || texture->generated))
+        if (texture->name || texture->in_bricks || !(texture->image.samples || texture->generated))
             continue;
         if (plr_texture_upload(t, texture))
             continue;

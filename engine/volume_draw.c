@@ -26,7 +26,18 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame) {
         qsort(pass->casts, pass->cast_count, sizeof *pass->casts, farther_first);
 }
 
-static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
+/* One casting of rays. */
+typedef struct casting {
+    plr_view *view;
+    const plr_cast *cast;
+    const plr_frame *frame;
+} casting;
+
+static void run_once(void *user) {
+    const casting *c = user;
+    plr_view *view = c->view;
+    const plr_cast *cast = c->cast;
+    const plr_frame *frame = c->frame;
     const plr_volume_pass *pass = &view->volumes;
     const plr_gl *gl = &view->engine->gl;
     gl->Disable(GL_CULL_FACE);
@@ -40,6 +51,15 @@ static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
     plr_bind_set(gl, &view->textures, &cast->pass.slots, &values);
     gl->BindVertexArray(view->empty_vertex_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
+    casting once = {view, cast, frame};
+    const plr_volume_state *first = &view->volumes.volumes[cast->members[0]];
+    if (first->grid->brick_sides[0])
+        plr_bricks_cast(view, first, frame, run_once, &once);
+    else
+        run_once(&once);
 }
 
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame) {

@@ -56,16 +56,6 @@ typedef struct reading {
     plr_diags *diags;
 } reading;
 
-/* Takes the last component away: in the proposal of 2005 it is the segment. */
-static void drop_last_component(plr_image *image) {
-    size_t size = plr_image_sample_size(image->type), count = image->components;
-    size_t voxels = (size_t)image->width * image->height * image->depth;
-    char *to = image->samples;
-    for (size_t i = 0; i < voxels; i++, to += size * (count - 1))
-        memmove(to, (char *)image->samples + i * size * count, size * (count - 1));
-    image->components--;
-}
-
 static void take_geometry(reading *r, const plr_volume *volume) {
     r->kept->placed = plr_volume_file_geometry(volume, plr_scene_length_unit(r->view->scene),
                                                &r->kept->place, r->kept->dimensions);
@@ -88,7 +78,8 @@ static bool read_volume(reading *r, const plr_volume *volume) {
     return plr_volume_to_image(volume, range, &r->voxels);
 }
 
-/* Voxels whose last component is the segment. One component alone draws nothing. */
+/* Voxels whose last component is the segment, which has no part in the range of the values. One
+ * component alone draws nothing. */
 static bool read_segmented(reading *r, const plr_node *node) {
     plr_volume volume = {0};
     bool fine = plr_volume_from_node(r->view->scene, node, &volume, r->diags);
@@ -97,11 +88,12 @@ static bool read_segmented(reading *r, const plr_node *node) {
                          "segmentedVoxels of one component draw nothing: they lack the segment");
         fine = false;
     }
-    fine = fine && read_volume(r, &volume) &&
-           plr_volume_to_labels(&volume, volume.components - 1, plr_node_place(node), &r->labels,
-                                r->diags);
-    if (fine)
-        drop_last_component(&r->voxels);
+    fine = fine && plr_volume_to_labels(&volume, volume.components - 1, plr_node_place(node),
+                                        &r->labels, r->diags);
+    if (fine) {
+        plr_volume_drop_last_component(&volume);
+        fine = read_volume(r, &volume);
+    }
     plr_volume_free(&volume);
     return fine;
 }
@@ -140,7 +132,14 @@ static void read_labels(reading *r) {
     plr_volume_free(&volume);
 }
 
-/* Brings down what the machine cannot hold. */
+/* Bricks have no labels, no other volume beside them, and no end of the ray. */
+static bool can_be_bricked(const reading *r) {
+    const plr_node *style = plr_node_child(r->owner, "renderStyle");
+    return r->view->engine && !r->labels.samples && plr_node_field(r->owner, "dimensions") &&
+           !(style && plr_node_is(style, "ProjectionVolumeStyle"));
+}
+
+/* Brings down what the machine cannot hold and what cannot be cast in bricks. */
 static bool fit(reading *r) {
     const plr_gl *gl = r->view->textures.gl;
     GLint side = 0;
@@ -149,11 +148,15 @@ static bool fit(reading *r) {
         gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &side);
     const uint32_t full[3] = {r->voxels.width, r->voxels.height, r->voxels.depth};
     memcpy(r->kept->full_size, full, sizeof full);
-    size_t most = r->view->desc.max_voxel_bytes;
-    plr_image_reduction(&r->voxels, side > 0 ? (uint32_t)side : 0,
-                        most ? most : PLR_VOLUME_MOST_BYTES, by);
+    size_t most =
+        r->view->desc.max_voxel_bytes ? r->view->desc.max_voxel_bytes : PLR_VOLUME_MOST_BYTES;
+    plr_image_reduction(&r->voxels, side > 0 ? (uint32_t)side : 0, most, by);
     if (by[0] == 1 && by[1] == 1 && by[2] == 1)
         return true;
+    if (can_be_bricked(r)) {
+        plr_bricks_plan(&r->voxels, side > 0 ? (uint32_t)side : 0, most, r->kept->grid.brick_sides);
+        return true;
+    }
     plr_diags_add_as(r->diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(r->owner),
                      "%u x %u x %u voxels are more than can be held here; they are brought down by "
                      "%u x %u x %u",
@@ -234,6 +237,7 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
+    kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;
     kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);
     *PLR_PUSH(&view->lasting, &view->kept_volumes) = kept;
     return kept;

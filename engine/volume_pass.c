@@ -129,16 +129,18 @@ static void split_layers(plr_view *view, const bool *layers, plr_diags *diags) {
     size_t kept = 0;
     for (size_t m = 0; m < together->count; m++) {
         size_t i = together->members[m];
-        if (!layers[i]) {
+        bool bricked = pass->volumes[i].grid->brick_sides[0] > 0;
+        if (!layers[i] && !bricked) {
             together->members[kept++] = i;
             continue;
         }
         plr_cast *own = add_cast(view);
         own->members[own->count++] = i;
         if (overlaps_another(pass, i))
-            plr_diags_add(diags, PLR_CODE_LAYERED, plr_node_place(pass->volumes[i].node),
-                          "an effect of this volume composites: it is a layer of its own, not "
-                          "mixed with the volumes that it overlaps");
+            plr_diags_add(
+                diags, PLR_CODE_LAYERED, plr_node_place(pass->volumes[i].node),
+                "%s: it is a layer of its own, not mixed with the volumes that it overlaps",
+                bricked ? "this volume is cast in bricks" : "an effect of this volume composites");
     }
     together->count = kept;
     if (!kept)
@@ -150,7 +152,7 @@ static size_t sampler_count(plr_view *view, const plr_cast *cast) {
     size_t count = 0;
     for (size_t i = 0; program && i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
-        if (symbol->kind == PLR_UNIFORM && strncmp(symbol->type, "sampler", 7) == 0)
+        if (symbol->kind == PLR_UNIFORM && strstr(symbol->type, "sampler"))
             count += symbol->array ? symbol->array : 1;
     }
     plr_program_destroy(&program);

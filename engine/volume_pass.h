@@ -29,6 +29,15 @@ bool plr_volume_has_styles(const plr_volume_state *state);
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
                            const plr_scope *lights, plr_diags *diags);
 
+/* ---- Bricks (volume_bricks.c) ---- */
+
+/* The sides of bricks that fit into textures of so many texels a side (0: any) and so many bytes. */
+void plr_bricks_plan(const plr_image *image, uint32_t most_side, size_t most_bytes,
+                     uint32_t sides[3]);
+/* Calls `cast` for each brick, the farthest first, with the grid set to it. Needs GL. */
+void plr_bricks_cast(plr_view *view, const plr_volume_state *state, const plr_frame *frame,
+                     void (*cast)(void *), void *user);
+
 /* ---- Order (volume_order.c) ---- */
 
 /* Sorts volumes by what they are, whatever the order in which the scene has them. */

@@ -20,6 +20,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
         {"HAS_LABELS", state->labels ? "1" : "0"},
+        {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_PROJECTED ? "1" : "0"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);

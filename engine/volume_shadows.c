@@ -54,6 +54,7 @@ void plr_volume_find_shadows(plr_view *view) {
     pass->casters = PLR_NEW_ARRAY(&view->arena, pass->count + 1, size_t);
     for (size_t i = 0; i < pass->count; i++)
         if (pass->volumes[i].kind != PLR_VOLUME_PROJECTED &&
+            !pass->volumes[i].grid->brick_sides[0] && /* it is never there as a whole */
             any_style_of(&pass->volumes[i], plr_style_has_shadows))
             pass->casters[pass->caster_count++] = i;
     if (pass->caster_count > 1)

@@ -7,6 +7,10 @@ uniform float referenceLength;  /* an opacity means "after this length", own coo
 uniform int volumeIndex;
 uniform vec3 cropMin = vec3(0.0); /* of the box of texture coordinates */
 uniform vec3 cropMax = vec3(1.0);
+#if defined(BRICKED) && BRICKED
+uniform vec3 brickLow; /* what is cast now */
+uniform vec3 brickHigh;
+#endif
 
 /* Along the ray, t = 0 at the eye: where it is in the box of texture coordinates [0,1], how fast it
  * moves there, and how fast in own coordinates. */
@@ -31,7 +35,12 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
     ray_direction = direction / dimensions;
     enter = start;
     leave = limit;
-    cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
+    vec3 low = max(cropMin, 0.0), high = min(cropMax, 1.0);
+#if defined(BRICKED) && BRICKED
+    low = max(low, brickLow);
+    high = min(high, brickHigh);
+#endif
+    cross_box(low, high, ray_origin, ray_direction, enter, leave);
 #if PLUG_USED(volume_ray)
     float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */

@@ -4,6 +4,27 @@
 uniform mat4 eyeToLocal; /* eye space -> the volume's own coordinates, the box centred at the origin */
 uniform vec3 dimensions;
 uniform sampler3D voxels;
+#if defined(BRICKED) && BRICKED
+uniform vec3 voxelCount; /* of the whole, of which the texture is a brick */
+uniform vec3 brickScale;
+uniform vec3 brickShift;
+
+vec4 voxel_at(const in vec3 position) {
+    return texture(voxels, position * brickScale + brickShift);
+}
+
+vec3 voxel_count() {
+    return voxelCount;
+}
+#else
+vec4 voxel_at(const in vec3 position) {
+    return texture(voxels, position);
+}
+
+vec3 voxel_count() {
+    return vec3(textureSize(voxels, 0));
+}
+#endif
 
 #if defined(HAS_LABELS) && HAS_LABELS
 uniform usampler3D labels;
@@ -29,14 +50,14 @@ float voxel_scalar(const in vec4 value) {
 }
 
 float scalar_at(const in vec3 position) {
-    return voxel_scalar(texture(voxels, position));
+    return voxel_scalar(voxel_at(position));
 }
 
 /* The trilinear interpolation of central differences at voxel centres: differences over exactly two
  * voxels, clamped to the outermost centres, commute with the interpolation. Value per unit length in
  * own coordinates. */
 vec3 gradient_at(const in vec3 position) {
-    vec3 size = vec3(textureSize(voxels, 0));
+    vec3 size = voxel_count();
     vec3 voxel = 1.0 / size;
     vec3 p = clamp(position, 0.5 * voxel, 1.0 - 0.5 * voxel);
     vec3 x = vec3(voxel.x, 0.0, 0.0), y = vec3(0.0, voxel.y, 0.0), z = vec3(0.0, 0.0, voxel.z);
@@ -60,7 +81,7 @@ vec4 voxel_color(const in vec4 value) {
 
 /* What the grid has at a place of the box, in texture coordinates. */
 void grid_sample(inout VolumeSample s, const in vec3 position) {
-    s.value = texture(voxels, position);
+    s.value = voxel_at(position);
 #if READS(normal_eye) || READS(gradient)
     vec3 gradient = gradient_at(position);
 #endif

@@ -30,7 +30,7 @@ vec4 value_on_ray(const in float t, const in float span, const in vec3 origin_ey
     sample_at(s, t, span, origin_eye, direction_eye);
     return s.value;
 #else
-    return texture(voxels, ray_origin + t * ray_direction);
+    return voxel_at(ray_origin + t * ray_direction);
 #endif
 }
 

@@ -68,8 +68,9 @@ typedef struct plr_view_desc {
         aspect;  /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
     double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
     int dialect; /* of volume nodes; 0: found out, 2005, or 1: final */
-    /* of one volume as a texture: a larger one is brought down by averaging, with a warning; 0: 4
-     * GiB */
+    /* of one volume as a texture; 0: 4 GiB. A larger one, or one of more voxels a side than GL takes,
+     * is cast in bricks, which are uploaded anew for each picture; with segments, a projection or
+     * inside a BlendedVolumeStyle it is brought down by averaging, with a warning. */
     size_t max_voxel_bytes;
     /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
     bool host_depths;
