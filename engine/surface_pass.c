@@ -30,6 +30,7 @@ void plr_surfaces_depths(const plr_view *view, const plr_matrix *world_to_eye, d
             continue;
         corner_depths(surface, world_to_eye, own);
         surface->depth = (own[0] + own[1]) / 2;
+        surface->reach = (own[1] - own[0]) / 2;
         depths[0] = fmin(depths[0], own[0]);
         depths[1] = fmax(depths[1], own[1]);
     }

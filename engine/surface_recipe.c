@@ -168,6 +168,7 @@ void plr_surfaces_prepare(plr_view *view, plr_diags *diags) {
     view->models = PLR_NEW_ARRAY(&view->arena, count + 1, plr_model *);
     view->surfaces = PLR_NEW_ARRAY(&view->arena, count + 1, plr_surface);
     view->blending = PLR_NEW_ARRAY(&view->arena, count + 1, plr_surface *);
+    view->blends = PLR_NEW_ARRAY(&view->arena, 2 * count + 1, plr_blend);
     for (size_t i = 0; i < count; i++) {
         const plr_leaf *leaf = &view->flat.shapes.items[i];
         plr_surface *surface = &view->surfaces[i];

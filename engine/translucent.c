@@ -74,7 +74,7 @@ typedef struct drawing {
     plr_view *view;
     const plr_frame *frame;
     const plr_shot *shot;
-    size_t inside; /* surfaces that divide rays and are still to be drawn */
+    size_t inside; /* drawings that divide rays and are still to come */
     int last;      /* the spare depths at which the next part ends; -1: it ends with the ray */
 } drawing;
 
@@ -134,8 +134,16 @@ static void draw_depths(const drawing *d, plr_surface *surface, plr_faces faces,
     gl->BindFramebuffer(GL_FRAMEBUFFER, d->shot->framebuffer);
 }
 
-static void draw_inside(drawing *d, plr_surface *surface, plr_faces faces) {
+static void draw_blend(drawing *d, const plr_blend *blend) {
     const plr_volume_pass *volumes = &d->view->volumes;
+    plr_surface *surface = blend->surface;
+    plr_faces faces = blend->faces;
+    if (is_avoided(d, &surface->model->pass.slots))
+        return;
+    if (!surface->inside) {
+        plr_surface_draw(d->view, surface, d->frame);
+        return;
+    }
     int to = d->last == 0 ? 1 : 0;
     draw_depths(d, surface, faces, to);
     for (size_t i = 0; i < volumes->cast_count; i++)
@@ -143,22 +151,6 @@ static void draw_inside(drawing *d, plr_surface *surface, plr_faces faces) {
             draw_cast(d, &volumes->casts[i], to);
     d->last = to;
     plr_surface_draw_faces(d->view, surface, d->frame, faces, false);
-}
-
-/* Of a surface that has two sides the far ones come first: what lies between them is seen through
- * the near ones. */
-static void draw_surface(drawing *d, plr_surface *surface) {
-    const plr_mesh *mesh = &surface->model->mesh;
-    if (is_avoided(d, &surface->model->pass.slots))
-        return;
-    if (!surface->inside) {
-        plr_surface_draw(d->view, surface, d->frame);
-    } else if (mesh->kind == PLR_MESH_TRIANGLES && mesh->two_sided) {
-        draw_inside(d, surface, PLR_FACES_BACK);
-        draw_inside(d, surface, PLR_FACES_FRONT);
-    } else {
-        draw_inside(d, surface, PLR_FACES_ALL);
-    }
 }
 
 /* Casts that are not nearer than this; those that are divided once nothing divides them any more.
@@ -176,15 +168,47 @@ static void draw_casts(const drawing *d, double depth) {
     }
 }
 
+/* ---- Order ---- */
+
 static int farther_first(const void *a, const void *b) {
-    double x = (*(plr_surface *const *)a)->depth, y = (*(plr_surface *const *)b)->depth;
-    return x < y ? 1 : x > y ? -1 : 0;
+    const plr_blend *x = a, *y = b;
+    if (x->depth != y->depth)
+        return x->depth < y->depth ? 1 : -1;
+    if (x->surface != y->surface)
+        return x->surface < y->surface ? -1 : 1; /* as in the scene */
+    return (int)x->faces - (int)y->faces;
 }
 
-/* Counts the surfaces that divide rays. */
-static size_t find_inside(const drawing *d) {
-    plr_view *view = d->view;
+static bool is_flat(const plr_mesh *mesh) {
+    for (int axis = 0; axis < 3; axis++)
+        if (mesh->bounds[0][axis] >= mesh->bounds[1][axis])
+            return true;
+    return false;
+}
+
+/* A surface inside that has two sides and room between them is drawn twice: what lies between its
+ * far and its near faces, matter and other surfaces, comes between. */
+static size_t find_blends(plr_view *view) {
     size_t count = 0;
+    for (size_t i = 0; i < view->blending_count; i++) {
+        plr_surface *surface = view->blending[i];
+        const plr_mesh *mesh = &surface->model->mesh;
+        bool encloses = surface->inside && mesh->kind == PLR_MESH_TRIANGLES && mesh->two_sided &&
+                        !is_flat(mesh);
+        double shift = encloses ? surface->reach / 2 : 0;
+        view->blends[count++] =
+            (plr_blend){surface, encloses ? PLR_FACES_BACK : PLR_FACES_ALL, surface->depth + shift};
+        if (encloses)
+            view->blends[count++] = (plr_blend){surface, PLR_FACES_FRONT, surface->depth - shift};
+    }
+    qsort(view->blends, count, sizeof *view->blends, farther_first);
+    return count;
+}
+
+/* Finds the surfaces that divide rays. */
+static void find_inside(const drawing *d) {
+    plr_view *view = d->view;
+    bool any = false;
     for (size_t i = 0; i < view->blending_count; i++) {
         plr_surface *surface = view->blending[i];
         surface->inside = false;
@@ -192,27 +216,26 @@ static size_t find_inside(const drawing *d) {
             surface->inside = view->volumes.casts[c].divided &&
                               !is_avoided(d, &surface->model->pass.slots) &&
                               plr_cast_meets(view, &view->volumes.casts[c], surface);
-        count += surface->inside;
+        any = any || surface->inside;
     }
-    if (count && !plr_spare_depths_fit(&view->spare, &view->engine->gl, (int)d->frame->viewport[2],
-                                       (int)d->frame->viewport[3])) {
+    if (any && !plr_spare_depths_fit(&view->spare, &view->engine->gl, (int)d->frame->viewport[2],
+                                     (int)d->frame->viewport[3]))
         for (size_t i = 0; i < view->blending_count; i++)
             view->blending[i]->inside = false;
-        count = 0;
-    }
-    return count;
 }
 
 void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const plr_shot *shot) {
     drawing d = {.view = view, .frame = frame, .shot = shot, .last = -1};
-    qsort(view->blending, view->blending_count, sizeof *view->blending, farther_first);
     plr_volume_depths(view, frame);
-    d.inside = find_inside(&d);
-    for (size_t i = 0; i < view->blending_count; i++) {
-        plr_surface *surface = view->blending[i];
-        draw_casts(&d, surface->depth);
-        draw_surface(&d, surface);
-        d.inside -= surface->inside;
+    find_inside(&d);
+    size_t count = find_blends(view);
+    for (size_t i = 0; i < count; i++)
+        d.inside += view->blends[i].surface->inside;
+    for (size_t i = 0; i < count; i++) {
+        const plr_blend *blend = &view->blends[i];
+        draw_casts(&d, blend->depth);
+        draw_blend(&d, blend);
+        d.inside -= blend->surface->inside;
     }
     draw_casts(&d, -INFINITY);
 }

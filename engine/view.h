@@ -64,8 +64,6 @@ typedef struct plr_volume_pass {
     } grids;         /* of the volumes and of their styles */
     size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
     size_t caster_count;
-    size_t *casters; /* indices of those that cast shadows, in the order of plr_volume_order */
-    size_t caster_count;
 } plr_volume_pass;
 
 /* A shape with its program: shared by all places where it stands under the same lights and
@@ -86,8 +84,23 @@ typedef struct plr_surface {
     plr_model *model;
     plr_matrix to_world;
     double depth; /* of the centre, in this frame */
+    double reach; /* from there to its nearest and its farthest place */
     bool inside;  /* of a volume: it divides rays, in this frame */
 } plr_surface;
+
+/* Which faces of a surface. */
+typedef enum plr_faces {
+    PLR_FACES_ALL,
+    PLR_FACES_BACK,
+    PLR_FACES_FRONT
+} plr_faces;
+
+/* A drawing of a translucent surface. */
+typedef struct plr_blend {
+    plr_surface *surface;
+    plr_faces faces;
+    double depth;
+} plr_blend;
 
 typedef struct plr_background {
     plr_node *node; /* NULL: none */
@@ -131,6 +144,7 @@ typedef struct plr_targets {
     size_t surface_count;                                                                          \
     plr_surface **blending; /* the translucent ones */                                             \
     size_t blending_count;                                                                         \
+    plr_blend *blends; /* their drawings in this frame: two each at most */                        \
     plr_shadows shadows;
 
 typedef struct plr_world {
@@ -193,8 +207,6 @@ void plr_world_find(plr_view *view);
 void plr_world_finish(plr_view *view);
 /* Finds which volumes there are, and which cast shadows; then makes their programs. */
 void plr_volume_pass_find(plr_view *view, plr_diags *diags);
-/* Finds which volumes there are, and which cast shadows; then makes their programs. */
-void plr_volume_pass_find(plr_view *view, plr_diags *diags);
 void plr_volume_pass_prepare(plr_view *view, plr_diags *diags);
 /* The gradient that counts as 1 where no author says so; never 0. */
 double plr_volume_steepness(plr_view *view, const plr_grid *grid);
@@ -230,11 +242,6 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame);
 double plr_volume_pass_samples(const plr_view *view, const plr_frame *frame);
 void plr_surface_draw(plr_view *view, plr_surface *surface, const plr_frame *frame);
 /* Some of its faces; `depths`: their depths alone, into a framebuffer without colours. */
-typedef enum plr_faces {
-    PLR_FACES_ALL,
-    PLR_FACES_BACK,
-    PLR_FACES_FRONT
-} plr_faces;
 void plr_surface_draw_faces(plr_view *view, plr_surface *surface, const plr_frame *frame,
                             plr_faces faces, bool depths);
 /* Bounds of the surfaces along the view direction: least and greatest distance from the eye's

@@ -106,6 +106,17 @@ def closed_shapes():
 
 
 @suite.case
+def shells():
+    "one translucent shell in another, in any order in the file, with matter between"
+    def box(size, material):
+        return quad(material, geometry=f"Box {{ size {size} {size} {size} solid FALSE }}")
+    expected = layers(matter(0.2), GREEN, matter(0.15), BLUE, matter(0.3), BLUE, matter(0.15), GREEN, matter(0.2))
+    outer, inner = box(0.6, SHEET), box(0.3, VEIL)
+    suite.close("the outer one first", suite.middle(front_scene(CUBE, outer, inner)), expected)
+    suite.close("the inner one first", suite.middle(front_scene(inner, CUBE, outer)), expected)
+
+
+@suite.case
 def oblique():
     "a square that crosses the volume and sticks out of it is met where it is, at each pixel"
     tilted = f"Transform {{ rotation 0 1 0 {math.pi / 4!r} children [\n{two_sided(SHEET, 2)}] }}\n"
