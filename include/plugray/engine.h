@@ -67,7 +67,9 @@ typedef struct plr_view_desc {
     double
         aspect;  /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
     double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
-    int dialect; /* of volume nodes; 0: found out, 2005, or 1: final */
+    /* of volume nodes; 0: found out, 2005, or 1: final. It sets defaults of the scene's fields: of
+     * views of one scene, the one that was made or updated last decides. */
+    int dialect;
     /* of one volume as a texture; 0: 4 GiB. A larger one, or one of more voxels a side than GL takes,
      * is cast in bricks, which are uploaded anew for each picture; with segments, a projection or
      * inside a BlendedVolumeStyle it is brought down by averaging, with a warning. */
