@@ -56,6 +56,12 @@ glslang = {path.name for path in sources("engine")
            for _, name in includes(path) if name.startswith("glslang/")}
 check(glslang <= {"glsl.c"}, "glslang lies behind one file of engine/", glslang)
 
+# The one file of C++.
+dcmtk = {str(path.relative_to(root)) for folder in ("base", "plugs", "x3d", "engine", "tools")
+         for suffix in ("c", "h", "cpp") for path in (root / folder).rglob("*." + suffix)
+         for _, name in includes(path) if name.startswith("dcmtk/")}
+check(dcmtk <= {"engine/volume_dicom_file.cpp"}, "DCMTK lies behind one file of engine/", dcmtk)
+
 wrong = [str(path.relative_to(root)) for path in (root / "effects").rglob("*")
          if path.suffix in (".c", ".h", ".cpp")]
 check(not wrong, "effects/ holds no C", *wrong)
