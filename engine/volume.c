@@ -200,6 +200,17 @@ void plr_volume_set_range(plr_volume *volume, double declared_minimum, double de
     volume->range_declared = has_minimum || has_maximum;
 }
 
+void plr_volume_drop_last_component(plr_volume *volume) {
+    size_t size = plr_voxel_size(volume->type), count = volume->components;
+    size_t voxels = plr_volume_count(volume) / count;
+    char *to = volume->voxels;
+    for (size_t i = 0; i < voxels; i++, to += size * (count - 1))
+        memmove(to, (const char *)volume->voxels + i * size * count, size * (count - 1));
+    volume->components--;
+    if (!volume->range_declared)
+        plr_volume_set_range(volume, NAN, NAN);
+}
+
 double plr_volume_value(const plr_volume *volume, uint32_t x, uint32_t y, uint32_t z, uint32_t c) {
     size_t index = ((size_t)z * volume->size[1] + y) * volume->size[0] + x;
     index = index * volume->components + c;

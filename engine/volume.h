@@ -80,6 +80,9 @@ void plr_labels_free(plr_labels *labels);
 /* Stored value of a voxel as a physical number. */
 double plr_volume_value(const plr_volume *volume, uint32_t x, uint32_t y, uint32_t z, uint32_t c);
 
+/* Takes the last component away (of two at least); a range that was not declared is found anew. */
+void plr_volume_drop_last_component(plr_volume *volume);
+
 /* The voxels as texture samples in 0..1: linear from range[0]..range[1] (physical; equal: the
  * volume's minimum..maximum), clamped, NaN as 0. UNORM16 for 8-bit data whose range is 0..255
  * (value * 257, exact), FLOAT32 otherwise. NULL-safe, false without memory. */

@@ -363,6 +363,23 @@ def segment_numbers():
 
 
 @suite.case
+def segmented_voxels():
+    "the segment in the last component has no part in the range of the values"
+    show = effect("void PLUG_volume_classify(inout vec4 color, const in VolumeSample s) {\n"
+                  "  color = vec4(s.value.r, float(s.segment & 255) / 255.0, "
+                  "float(s.segment >> 8) / 255.0, 1.0); }")
+    values, ids = [0, 250, 1000], [300, 60000, 7]
+    raw = struct.pack("<12H", *[n for pair in zip(values, ids) for n in pair] * 2)
+    file = nrrd("ushort", (2, 3, 1, 2), raw, more="endian: little\nkinds: vector domain domain domain\n")
+    text = scene(FULL, f"SegmentedVolumeData {{ effects {show} segmentedVoxels\n{image3d('a.nrrd')} }}\n")
+    got = suite.probe(text, [(x, 2) for x in range(3)], "--step", "0.2", size="3x3",
+                      files={"a.nrrd": file})
+    suite.close("", [c for p in got for c in p[:3]],
+                [n for v, i in zip(values, ids) for n in (v / 1000, (i & 255) / 255, (i >> 8) / 255)],
+                1e-5)
+
+
+@suite.case
 def reduced_segments():
     "segment numbers of what is brought down are those of most voxels"
     side = 16384
