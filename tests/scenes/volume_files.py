@@ -302,10 +302,10 @@ def windows():
 
 @suite.case
 def brought_down():
-    "a volume that GL cannot hold is averaged, with a warning; its opacity stays"
+    "what GL cannot hold and what is not cast in bricks is averaged, with a warning; opacity stays"
     side = 16384
     files = {"a.nrrd": nrrd("uchar", (side, 1, 2), bytes([100, 200] * side))}
-    text = scene(FULL, volume(image3d("a.nrrd"), effects=SHOW))
+    text = scene(FULL, volume(image3d("a.nrrd"), "ProjectionVolumeStyle { }"))
     result = suite.render(text, "--probe", "5,8", "--step", "0.2", files=files)
     messages = [m[3:] for m in result.messages()]
     if not messages:
@@ -316,9 +316,11 @@ def brought_down():
                 in messages[0][1] and messages[0][2] == "limit", messages)
     suite.close("the mean", float(result.output.split()[0]), 150 / 255, 1e-4)
     # a voxel's opacity belongs to the reference length of the whole volume
-    fog = volume(image3d("a.nrrd"), fields="dimensions 16384 1 2")
-    file = {"a.nrrd": nrrd("uchar", (side, 1, 2), bytes([51] * side * 2))}
-    pixel = suite.probe(scene(FULL, fog), [(0, 0)], "--step", "0.5", size="1x1", files=file)[0]
+    fog = (f"SegmentedVolumeData {{ dimensions 16384 1 2 voxels {image3d('a.nrrd')} "
+           f"segmentIdentifiers {image3d('s.nrrd')} }}\n")
+    files = {"a.nrrd": nrrd("uchar", (side, 1, 2), bytes([51] * side * 2)),
+             "s.nrrd": nrrd("uchar", (side, 1, 2), bytes(side * 2))}
+    pixel = suite.probe(scene(FULL, fog), [(0, 0)], "--step", "0.5", size="1x1", files=files)[0]
     suite.close("the opacity", pixel[3], 1 - (1 - 0.2) ** 2, 1e-4)
 
 
