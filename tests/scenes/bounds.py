@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """bboxDisplay: the edges of bounding boxes, given or found."""
 
-from harness import Suite
+import os
+
+from harness import Picture, Suite
 from scenes import constant, effect, front_scene, quad, volume
 
 suite = Suite()
@@ -117,6 +119,21 @@ def plain():
     for time, color in ((0.5, NOTHING), (1.5, WHITE)):
         got = suite.probe(front_scene(timed), [at(0.55, 0.05)], "--time", time, size="20x20")[0]
         suite.close(f"at {time}", got, color)
+
+
+@suite.case
+def moving():
+    "a box goes with what it is around, frame by frame"
+    timed = "DEF M " + moved(volume(EMPTY, fields="bboxDisplay TRUE"), HALF) + (
+        "DEF T TimeSensor { loop TRUE cycleInterval 10 }\n"
+        "DEF I PositionInterpolator { key [0 1] keyValue [0.05 0.05 0 1.05 0.05 0] }\n"
+        "ROUTE T.fraction_changed TO I.set_fraction ROUTE I.value_changed TO M.translation\n")
+    result = suite.render(front_scene(timed), "-o", "frame%d.npy", "--frames", "4", "--fps", "1", size="20x20")
+    names = sorted(name for name in os.listdir(result.folder) if name.endswith(".npy"))
+    for i, name in enumerate(names):
+        picture = Picture(os.path.join(result.folder, name))
+        edges = [x for x in range(20) if picture.at(x, 9)[3] > 0.5]
+        suite.equal(f"at {i}", edges, [5 + i, 15 + i])
 
 
 @suite.case

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """The proposal of 2005 and the final standard: what selects a dialect, what differs, OctTree."""
 
-from harness import Suite, dot, opacity, premultiplied
+import os
+
+from harness import Picture, Suite, dot, opacity, premultiplied
 from scenes import constant, effect, front_scene, quad, scene, volume
 from style_data import OPACITY, SLOPE, TINT, VIEW, Styles, boundary, magnitude, normal_of, silhouette
 
@@ -191,6 +193,11 @@ def octants_tell():
         suite.close(f"at {time}", suite.middle(text, "--time", time), expected)
     result = suite.picture(text, "--time", "4.1", size="101x101")
     suite.close("beside", result.at(50 + 4, 50), RED)
+    # at 0, 1, ... 5: beyond the range after 4
+    result = suite.render(text, "-o", "frame%d.npy", "--frames", "6", "--fps", "1", size="101x101")
+    names = sorted(name for name in os.listdir(result.folder) if name.endswith(".npy"))
+    colors = [Picture(os.path.join(result.folder, name)).at(50, 50) for name in names]
+    suite.close("frame by frame", sum(colors, ()), sum([GREEN] * 4 + [(0, 0, 1, 1)] * 2, ()))
 
 
 suite.run()
