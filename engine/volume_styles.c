@@ -9,7 +9,7 @@
 #include "engine/transfer_function.h"
 
 enum {
-    MOST_STYLES = 4096 /* of one volume: DEF and USE can make a few lines into very many */
+    MOST_STYLES = 1024 /* of one volume: DEF and USE can make a few lines into very many */
 };
 
 /* Whether anything is drawn with this style; NULL is the default style. */
