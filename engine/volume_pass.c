@@ -47,7 +47,7 @@ void plr_volume_pass_find(plr_view *view, plr_diags *diags) {
         state->index = pass->count;
         pass->leaves[pass->count++] = leaf;
     }
-    plr_volume_find_shadows(view);
+    plr_volume_find_shadows(view, diags);
 }
 
 /* ---- Layers ---- */

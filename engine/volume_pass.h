@@ -55,7 +55,7 @@ void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, si
 /* Whether a style asks for shadows. */
 bool plr_style_has_shadows(const plr_node *style);
 /* Finds which volumes cast some. */
-void plr_volume_find_shadows(plr_view *view);
+void plr_volume_find_shadows(plr_view *view, plr_diags *diags);
 /* Whether colours of what is transparent matter to nothing in the volume. */
 bool plr_volume_skips_clear(const plr_view *view, size_t volume);
 

@@ -49,13 +49,21 @@ static bool any_style_of(const plr_volume_state *state, bool (*is)(const plr_nod
     return false;
 }
 
-void plr_volume_find_shadows(plr_view *view) {
+/* A projection is no matter that light could meet. */
+static bool casts(const plr_volume_state *state, plr_diags *diags) {
+    if (state->kind == PLR_VOLUME_PROJECTED || !any_style_of(state, plr_style_has_shadows))
+        return false;
+    if (state->grid->brick_sides[0])
+        plr_diags_add_as(diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(state->node),
+                         "a volume that is cast in bricks casts no shadows");
+    return !state->grid->brick_sides[0];
+}
+
+void plr_volume_find_shadows(plr_view *view, plr_diags *diags) {
     plr_volume_pass *pass = &view->volumes;
     pass->casters = PLR_NEW_ARRAY(&view->arena, pass->count + 1, size_t);
     for (size_t i = 0; i < pass->count; i++)
-        if (pass->volumes[i].kind != PLR_VOLUME_PROJECTED &&
-            !pass->volumes[i].grid->brick_sides[0] && /* it is never there as a whole */
-            any_style_of(&pass->volumes[i], plr_style_has_shadows))
+        if (casts(&pass->volumes[i], diags))
             pass->casters[pass->caster_count++] = i;
     if (pass->caster_count > 1)
         plr_volume_order(view, pass->casters, pass->caster_count);

@@ -2,6 +2,7 @@
 """Shadows of volumes: in themselves, on each other, on surfaces; in closed form."""
 
 import math
+import os
 
 from harness import Suite, box_interval, unit
 from scenes import constant, effect, front_scene, quad, volume, voxels
@@ -226,6 +227,97 @@ def on_each_other():
     suite.close("a volume that asks for none is in none", got[:3], (0,) * 3, 2e-4)  # and does not scatter
     got = suite.middle(front_scene(ABOVE, far.replace("shadows TRUE", "shadows FALSE"), near), *FINE)
     suite.close("and casts none", got[:3], (math.exp(-SIGMA / 2) * SEEN,) * 3, 2e-4)
+
+
+@suite.case
+def no_shadow_no_code():
+    "a scene whose volumes ask for no shadow composes programs without a line of it"
+    def programs(style):
+        result = suite.command("dump", "s.x3dv", "-d", "out", files={
+            "s.x3dv": front_scene(ABOVE, "PointLight { }", cloud(shaded=style), FLOOR)})
+        folder = os.path.join(result.folder, "out")
+        texts = {}
+        for name in os.listdir(folder):
+            if name.endswith(".frag"):
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    texts[name] = file.read()
+        return texts
+    without = programs("ShadedVolumeStyle { lighting TRUE }")
+    suite.equal("shadows FALSE", programs("ShadedVolumeStyle { lighting TRUE shadows FALSE }"), without)
+    suite.check("not a word", without and not any("shadow" in t.lower() for t in without.values()))
+    suite.check("else there is", all("hadow" in t for t in programs(SHADED).values()))
+
+
+@suite.case
+def itself():
+    "nothing opaque is dark for its own sake: a cube and a sphere in the light of the viewer"
+    got = suite.middle(front_scene(HEAD, cloud(0xFFFFFFFF)))
+    suite.close("cube", got, (1, 1, 1, 1))
+    n = 16
+    values = [255 if math.dist((x, y, z), ((n - 1) / 2,) * 3) < 6 else 0
+              for z in range(n) for y in range(n) for x in range(n)]
+    ball = voxels(1, (n, n, n), values)
+    surface = f"IsoSurfaceVolumeData {{ surfaceValues .5 voxels {ball} renderStyle "
+    style = composed(opacity_map(0xFFFFFFFF), "ShadedVolumeStyle { lighting TRUE %s }") + " }\n"
+    pixels = [(16, 16), (18, 17)]
+    for light in (HEAD, "DirectionalLight { direction -1 -1 -1 }"):
+        plain, dark = (suite.probe(front_scene(light, surface + style % word), pixels, size="32x32")
+                       for word in ("", "shadows TRUE"))
+        suite.close(f"sphere, {light}", dark[0] + dark[1], plain[0] + plain[1])
+        suite.check(f"there it is, {light}", plain[0][3] == plain[1][3] == 1 and plain[1][0] > 0.1, plain)
+
+
+@suite.case
+def occluder():
+    "T20: an occluder inside: nowhere brighter, darker behind it, alpha and ambient light as before"
+    n = 12
+    values = []
+    for _, y, _ in ((z, y, x) for z in range(n) for y in range(n) for x in range(n)):
+        values.append(255 if y == n - 3 else 90 if y < n - 6 else 0)  # a plate above a thicker slab
+    data = voxels(1, (n, n, n), values)
+    ramp = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 1 4 0x80FF8000 0xFFFFFFFF } }"
+    light = "DirectionalLight { direction .3 -1 -.2 ambientIntensity .4 }"
+    picture = {}
+    for asked in ("TRUE", "FALSE"):
+        # NONE: what scatters belongs to shadows
+        style = f'ShadedVolumeStyle {{ lighting TRUE shadows {asked} phaseFunction "NONE" }}'
+        picture[asked] = suite.picture(front_scene(light, volume(data, composed(ramp, style))), size="24x24")
+    dark, plain = picture["TRUE"].values, picture["FALSE"].values
+    suite.check("nowhere brighter", all(a <= b + 1e-5 for a, b in zip(dark, plain)))
+    suite.check("shadow somewhere", max(b - a for a, b in zip(dark, plain)) > 0.2)
+    suite.close("alpha", dark[3::4], plain[3::4], 1e-6)
+    ambient = light.replace("{", "{ intensity 0")
+    style = 'ShadedVolumeStyle { lighting TRUE shadows %s phaseFunction "NONE" }'
+    a, b = (suite.picture(front_scene(ambient, volume(data, composed(ramp, style % asked))), size="24x24")
+            for asked in ("TRUE", "FALSE"))
+    suite.close("ambient light alone", a.values, b.values, 1e-6)
+
+
+@suite.case
+def motion():
+    "a volume that moves takes its shadow along"
+    clock = ("DEF T TimeSensor { cycleInterval 1 loop TRUE }\n"
+             "DEF P PositionInterpolator { key [0 1] keyValue [-1.5 0 0, -1.5 10 0] }\n")
+    routes = "ROUTE T.fraction_changed TO P.set_fraction\nROUTE P.value_changed TO M.set_translation\n"
+    text = front_scene(ASLANT, clock, "DEF M Transform { children [ " + cloud() + " ] }\n", FLOOR, routes)
+    result = suite.render(text, "--frames", 2, "--fps", 2, "--probe", "6,8", size="16x16")
+    first, second = [float(line.split()[0]) for line in result.output.splitlines()]
+    x = (6.5 / 8 - 1)
+    enter, leave = box_interval((x + 1.5, 1 / 16, -1), unit((-1, 0, 1)))
+    suite.close("", (first, second), (ARRIVES * math.exp(-SIGMA * (leave - enter)), ARRIVES))
+
+
+@suite.case
+def faults():
+    "a faulty effect on a volume is reported once, and the shadow is that of the rest"
+    bad = effect("void PLUG_volume_classify(inout vec4 color, const in VolumeSample s) { color = nothing; }")
+    def drawn(style):
+        text = front_scene(ASLANT, aside(cloud(effects=bad, shaded=style)), FLOOR)
+        return suite.render(text, "--probe", "4,8", status=1)
+    result, plain = drawn(SHADED), drawn("ShadedVolumeStyle { lighting TRUE              }")
+    suite.equal("messages", result.messages(), plain.messages())
+    suite.check("there are some", result.messages())
+    suite.close("shadow", float(result.output.split()[0]), ARRIVES * math.exp(-SIGMA * ways()[1]))
 
 
 suite.run()
