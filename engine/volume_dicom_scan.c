@@ -53,11 +53,14 @@ static uint32_t number(const walker *w, size_t at, size_t size) {
 
 /* ---- Elements ---- */
 
-/* VRs whose explicit length has 4 bytes (PS3.5, 7.1.2). */
-static bool is_long_vr(const char vr[2]) {
-    static const char names[] = "OBODOFOLOVOWSQSVUCUNURUTUV";
-    for (size_t i = 0; i + 1 < sizeof names; i += 2)
-        if (memcmp(names + i, vr, 2) == 0)
+/* VRs whose explicit length has 2 bytes and those where it has 4 (PS3.5, 7.1.2). What the library
+ * would make of others is its secret. */
+static const char short_vrs[] = "AEASATCSDADSDTFDFLISLOLTPNSHSLSSSTTMUIULUS";
+static const char long_vrs[] = "OBODOFOLOVOWSQSVUCUNURUTUV";
+
+static bool is_among(const char *names, const char vr[2]) {
+    for (; *names; names += 2)
+        if (memcmp(names, vr, 2) == 0)
             return true;
     return false;
 }
@@ -79,10 +82,11 @@ static bool read_head(walker *w, element *e) {
         e->length = number(w, w->at + 4, 4);
         w->at += 8;
     } else {
-        if (!is_vr(w->data + w->at + 4))
-            return fail(w, "an element has no value representation");
         memcpy(e->vr, w->data + w->at + 4, 2);
-        if (!is_long_vr(e->vr)) {
+        bool is_long = is_among(long_vrs, e->vr);
+        if (!is_long && !is_among(short_vrs, e->vr))
+            return fail(w, "an element has an unknown value representation");
+        if (!is_long) {
             e->length = number(w, w->at + 6, 2);
             w->at += 8;
         } else {
