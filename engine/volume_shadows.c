@@ -9,6 +9,7 @@
 /* ---- Which styles ask for shadows ---- */
 
 enum {
+    MOST_CASTERS = 8, /* each is in every lit program, with its textures */
     MOST_LOOKS = 4096 /* at styles of one volume: DEF and USE can make a few lines into very many */
 };
 
@@ -67,6 +68,12 @@ void plr_volume_find_shadows(plr_view *view, plr_diags *diags) {
             pass->casters[pass->caster_count++] = i;
     if (pass->caster_count > 1)
         plr_volume_order(view, pass->casters, pass->caster_count);
+    if (pass->caster_count <= MOST_CASTERS)
+        return;
+    plr_diags_add(diags, PLR_CODE_LIMIT,
+                  plr_node_place(pass->volumes[pass->casters[MOST_CASTERS]].node),
+                  "more than %d volumes cast shadows; the rest casts none", MOST_CASTERS);
+    pass->caster_count = MOST_CASTERS;
 }
 
 /* ---- Lights in their shadow ---- */

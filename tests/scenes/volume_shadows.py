@@ -314,10 +314,19 @@ def faults():
     def drawn(style):
         text = front_scene(ASLANT, aside(cloud(effects=bad, shaded=style)), FLOOR)
         return suite.render(text, "--probe", "4,8", status=1)
-    result, plain = drawn(SHADED), drawn("ShadedVolumeStyle { lighting TRUE              }")
+    result, plain = drawn(SHADED), drawn("ShadedVolumeStyle { lighting TRUE }")
     suite.equal("messages", result.messages(), plain.messages())
     suite.check("there are some", result.messages())
     suite.close("shadow", float(result.output.split()[0]), ARRIVES * math.exp(-SIGMA * ways()[1]))
+
+
+@suite.case
+def too_many():
+    "more than eight volumes: so many shadows, and it is said once"
+    for count, told in ((8, []), (9, ["limit"])):
+        text = front_scene(ASLANT, *[moved(cloud(), (0, 0, i)) for i in range(count)], FLOOR)
+        result = suite.command("check", "s.x3dv", files={"s.x3dv": text}, status=1 if told else 0)
+        suite.equal(f"{count}", [code for code in ("limit",) if f"[{code}]" in result.output + result.errors], told)
 
 
 suite.run()
