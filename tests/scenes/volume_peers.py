@@ -83,7 +83,10 @@ def frames(count, folder):
     """Draws frames; how much memory that took, in KiB."""
     arguments = [sys.argv[1], "render", "scene.x3dv", "--size", "4x4", "--no-cache", "-o", "frame%d.png",
                  "--frames", str(count), "--fps", "10"]
-    with subprocess.Popen(arguments, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+    # AddressSanitizer keeps what was freed, up to a bound
+    options = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=16"
+    environment = dict(os.environ, ASAN_OPTIONS=options)
+    with subprocess.Popen(arguments, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
         output = process.stdout.read().decode(errors="replace")
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
