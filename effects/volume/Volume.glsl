@@ -35,22 +35,25 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
     ray_direction = direction / dimensions;
     enter = start;
     leave = limit;
-    vec3 low = max(cropMin, 0.0), high = min(cropMax, 1.0);
-#if defined(BRICKED) && BRICKED
-    low = max(low, brickLow);
-    high = min(high, brickHigh);
-#endif
-    cross_box(low, high, ray_origin, ray_direction, enter, leave);
+    cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
 #if PLUG_USED(volume_ray)
     float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */
     enter = max(enter, t_enter);
     leave = min(leave, t_exit);
 #endif
+#if defined(BRICKED) && BRICKED
+    float whole_leave = leave;
+    cross_box(brickLow, brickHigh, ray_origin, ray_direction, enter, leave);
+#endif
     ray_begins(origin_eye, direction_eye);
 #if WRITES_DEPTH && writeDepth
     if (enter < leave)
+#if defined(BRICKED) && BRICKED
+        written_end = max(written_end, whole_leave);
+#else
         written_end = max(written_end, leave);
+#endif
 #endif
 #if HAS_PARTS
     whole_enter = enter;

@@ -257,6 +257,8 @@ void main() {
     plugray_FragColor = accumulated;
 #endif
 #if WRITES_DEPTH
+    if (accumulated == vec4(0.0))
+        discard; /* no trace: what other bricks have written stays */
     gl_FragDepth = opaque;
     if (accumulated.a > 0.0 && written_end >= 0.0)
         gl_FragDepth = distance_depth(min(ended_at, written_end), direction_eye, opaque);

@@ -89,6 +89,19 @@ static void run(plr_context *context) {
         compare(engine, "lit", "VolumeData", lit, views[i], 5e-3);
         compare(engine, "surfaces", "IsoSurfaceVolumeData", surfaces, views[i], 4e-3);
     }
+    char with[900]; /* glass that is inside; and behind, though its middle is nearer than the
+                       volume's */
+    const char *glass =
+        "Shape { appearance Appearance { material UnlitMaterial { emissiveColor 0 1 0 "
+        "transparency .3 } } geometry IndexedFaceSet { solid FALSE coordIndex [ 0 1 2 3 ] "
+        "coord Coordinate { point [ -3 -3 0, 3 -3 0, 3 3 0, -3 3 0 ] } } }";
+    snprintf(with, sizeof with, "%s ] }\nTransform { rotation 1 2 0 0.4 children [ %s", map, glass);
+    compare(engine, "glass inside", "VolumeData", with, views[0], 2e-3);
+    snprintf(with, sizeof with,
+             "%s ] writeDepth TRUE }\nTransform { translation 2 0 .78 rotation 0 1 0 -0.785 "
+             "children [ %s",
+             map, glass);
+    compare(engine, "glass behind", "VolumeData", with, views[0], 2e-3);
     plr_engine_destroy(&engine);
     plr_diags_destroy(&diags);
 }
