@@ -155,6 +155,7 @@ void plr_recipe_shadows(plr_view *view, plr_recipe *recipe, size_t from, size_t 
             continue;
         bool cube = shadow->values.texture->kind == PLR_TEXTURE_CUBE_SHADOW;
         binding.shadow = &shadow->values;
+        binding.is_light = false;
         binding.volume = volume;
         plr_recipe_builtin(&view->kitchen, recipe,
                            cube ? "shadows/ShadowCube" : "shadows/ShadowMap", "GeneratedShadowMap",

@@ -175,6 +175,9 @@ def legacy_names():
          (0.2, 0.25, 0.5, 1)),
         ("SpotCosCutoff", showing("castle_LightSource0SpotCosCutoff"), grey(math.cos(0.5))),
         ("no light of that number", showing("castle_LightSource7Color"), (0, 0, 0, 1)),
+        ("a shadow is no light", (spot + other).replace("{", "{ shadows TRUE") + quad(WHITE, effect(
+            "uniform vec3 castle_LightSource2Color;\n"
+            "void PLUG_fragment_modify(inout vec4 c) { c.rgb = castle_LightSource2Color; }")), (0, 0, 0, 1)),
     ), head="")
 
 
