@@ -9,22 +9,30 @@
 #include "engine/transfer_function.h"
 
 enum {
-    MOST_STYLES = 1024 /* of one volume: DEF and USE can make a few lines into very many */
+    MOST_STYLES = 1024, /* of one volume: DEF and USE can make a few lines into very many */
+    MOST_LOOKS = 4096   /* at styles within one */
 };
 
-/* Whether anything is drawn with this style; NULL is the default style. */
-static bool any_enabled(const plr_node *node) {
-    if (!node)
+/* `left` bounds the looks at styles; what is not looked at any more counts as enabled. */
+static bool is_any_enabled(const plr_node *node, size_t *left) {
+    if (!node || !*left)
         return true;
+    --*left;
     if (!plr_node_bool(node, "enabled"))
         return false;
     if (!plr_node_is(node, "ComposedVolumeStyle"))
         return true;
     const plr_field *styles = plr_node_field(node, "renderStyle");
     for (size_t i = 0; styles && i < styles->count; i++)
-        if (styles->value.nodes[i] && any_enabled(styles->value.nodes[i]))
+        if (styles->value.nodes[i] && is_any_enabled(styles->value.nodes[i], left))
             return true;
     return !styles || !styles->count;
+}
+
+/* Whether anything is drawn with this style; NULL is the default style. */
+static bool any_enabled(const plr_node *node) {
+    size_t left = MOST_LOOKS;
+    return is_any_enabled(node, &left);
 }
 
 static bool is_list(const plr_volume_state *state) {

@@ -17,24 +17,32 @@ typedef struct surface_list {
 } surface_list;
 
 static void add_surface(surface_list *list, double value, size_t number) {
-    list->full = list->full || list->count == PLR_MOST_SURFACES;
-    if (list->full || !isfinite(value))
+    if (!isfinite(value))
         return;
+    if (list->count == PLR_MOST_SURFACES) {
+        list->full = true;
+        return;
+    }
     list->items[list->count][0] = (float)value;
     list->items[list->count++][1] = (float)number;
 }
 
 static void add_contours(surface_list *list, double value, double step) {
     step = fabs(step);
-    double below = floor(value / step + 1e-6), above = floor((1 - value) / step + 1e-6);
-    if (!(below + above <= PLR_MOST_SURFACES)) {
+    double first = ceil(-value / step - 1e-6), last = floor((1 - value) / step + 1e-6);
+    if (first > 0 || last < 0)
+        add_surface(list, value,
+                    0); /* outside the data, where it may be after an author's effect */
+    if (last - first >= PLR_MOST_SURFACES) {
         list->full = true;
-        below = fmin(below, PLR_MOST_SURFACES / 2.0);
-        above = fmin(above, PLR_MOST_SURFACES / 2.0 - 1);
+        first = fmax(first, -PLR_MOST_SURFACES / 2.0);
+        last = fmin(last, first + PLR_MOST_SURFACES - 1);
     }
     size_t number = 1;
-    for (double k = -fmax(below, 0); k <= fmax(above, 0); k++)
+    for (int i = 0; i < PLR_MOST_SURFACES && first + i <= last; i++) {
+        double k = first + i;
         add_surface(list, value + k * step, k == 0 ? 0 : number++);
+    }
 }
 
 static int by_value(const void *a, const void *b) {
@@ -67,20 +75,30 @@ static void add_given(const plr_volume_state *state, surface_list *list) {
         add_surface(list, ((double)values->value.floats[i] - s.low) / s.size, i);
 }
 
-const plr_node *plr_surface_style(const plr_node *style) {
-    if (!style || !plr_node_bool(style, "enabled"))
+enum {
+    MOST_LOOKS = 4096 /* at styles of one volume: DEF and USE can make a few lines into very many */
+};
+
+static const plr_node *find_style(const plr_node *style, size_t *left) {
+    if (!style || !*left || !plr_node_bool(style, "enabled"))
         return NULL;
+    --*left;
     if (plr_node_is(style, "ISOSurfaceVolumeStyle"))
         return style;
     const plr_field *members = plr_node_field(style, "renderStyle");
     if (!plr_node_is(style, "ComposedVolumeStyle"))
         return NULL;
     for (size_t i = 0; members && i < members->count; i++) {
-        const plr_node *found = plr_surface_style(members->value.nodes[i]);
+        const plr_node *found = find_style(members->value.nodes[i], left);
         if (found)
             return found;
     }
     return NULL;
+}
+
+const plr_node *plr_surface_style(const plr_node *style) {
+    size_t left = MOST_LOOKS;
+    return find_style(style, &left);
 }
 
 /* The style of 2005 has no value: this one is taken. */
