@@ -81,6 +81,16 @@ def segments():
         suite.close(f"segment {segment}: value", found["value"], [9 / 255])
 
 
+@suite.case
+def segments_of_2005():
+    "of segmentedVoxels the last component is the segment and no value"
+    both = voxels(2, (1, 1, 2), (0x0905, 0x0003))  # 0 is opaque there
+    text = front_scene(f"DEF S SegmentedVolumeData {{ segmentedVoxels {both} }}\n")
+    found = pick(text, [(16, 16)], "--step", 0.05, "--dialect", "2005")[0]
+    suite.equal("segment and volume", (found["segment"], found["volume"]), (3, "S"))
+    suite.equal("one value", (found["value"], found["physical"]), ([0], [0]))
+
+
 def corner(inside, size=(3, 3, 3)):
     """One voxel that is not empty: the last one."""
     count = size[0] * size[1] * size[2]

@@ -152,6 +152,16 @@ def perspective():
 
 
 @suite.case
+def parallel_inside():
+    "parallel rays begin at the eye's plane, inside the volume and between two squares, too"
+    for eye, content, expected in (
+            (0.3, two_sided(SHEET), layers(matter(0.3), GREEN, matter(0.5))),
+            (0.1, two_sided(SHEET) + at(0.3, two_sided(VEIL)), layers(matter(0.1), GREEN, matter(0.5)))):
+        view = f"OrthoViewpoint {{ position 0 0 {eye} fieldOfView -1 -1 1 1 nearDistance .001 farDistance 9 }}\n"
+        suite.close(f"from {eye}", suite.middle(scene(view, NO_HEADLIGHT, CUBE, content)), expected, 2e-3)
+
+
+@suite.case
 def opaque():
     "T14: an opaque square at half depth, declared before and after: the same, half the optical depth"
     wall = two_sided(WALL)
