@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Overlays on pictures of volumes - scale bar, letters of orientation, legend - and fluorescence that adds up: the
-effects of examples/volumes/effects."""
+effects of examples/volumes/compositions/effects."""
 
 import math
 import os
@@ -8,7 +8,7 @@ import os
 from harness import Suite, opacity
 
 suite = Suite()
-EFFECTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "volumes", "effects")
+EFFECTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "volumes", "compositions", "effects")
 WIDTH, HEIGHT = 160, 120
 
 # What is drawn of a letter, row by row from the top.
