@@ -120,7 +120,7 @@ check(not broken, "links between documents lead somewhere", *broken)
 
 gallery = subprocess.run([sys.executable, root / "tools" / "gallery", "--check"], capture_output=True, encoding="utf-8")
 check(gallery.returncode == 0, "docs/gallery.md fits the scenes and their effects", gallery.stderr)
-pictures = re.findall(r"^!\[.*\]\((.*)\)$", text_of("docs/gallery.md"), re.M)
+pictures = re.findall(r"!\[[^\]]*\]\(([^)]*)\)", text_of("docs/gallery.md"))
 missing = [name for name in pictures if not (root / "docs" / name).exists()]
 check(len(pictures) >= 9 and not missing, "every figure of the gallery has its picture", *missing)
 
