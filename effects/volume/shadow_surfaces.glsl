@@ -1,9 +1,8 @@
 /* The optical depth of surfaces of equal value: each crossing lets through 1 - alpha. A unit of
  * ShadowRay.glsl's effect, beside levels.glsl.
  *
- * The value at both ends of a step tells which surfaces lie between; where they are crossed is found on
- * the straight line between the ends. The first half voxel counts as empty, so that a surface does not
- * shadow itself where it lies. */
+ * The value at both ends of a step tells which surfaces lie between; where each is crossed is then
+ * found. The first half voxel counts as empty, so that a surface does not shadow itself. */
 
 const float OWN_VOXELS = 0.5;
 
@@ -11,6 +10,26 @@ float value_at(const in float t) {
     VolumeSample s;
     sample_at(s, t, 0.0);
     return voxel_scalar(s.value);
+}
+
+/* Where the value is `level`, between two places on its two sides: false position. The opacity there may
+ * depend on the value; where exactly it is matters little. */
+float find_crossing(const in float level, float a, float value_a, float b, float value_b) {
+    float t = a;
+    for (int i = 0; i < 4; i++) {
+        t = mix(a, b, clamp((level - value_a) / (value_b - value_a), 0.0, 1.0));
+        float value = value_at(t);
+        if (value == level)
+            break;
+        if ((value < level) == (value_a < level)) {
+            a = t;
+            value_a = value;
+        } else {
+            b = t;
+            value_b = value;
+        }
+    }
+    return t;
 }
 
 /* The depth of one crossing. */
@@ -39,8 +58,8 @@ void add_depth(inout float depth, const in float enter, const in float leave) {
             bool up = below < below_next;
             int surface = up ? below : below - 1;
             below += up ? 1 : -1;
-            float part = clamp((surfaces[surface].x - value) / (value_next - value), 0.0, 1.0);
-            depth += crossing_depth(mix(t, t_next, part), surface);
+            float crossing = find_crossing(surfaces[surface].x, t, value, t_next, value_next);
+            depth += crossing_depth(crossing, surface);
         }
         t = t_next;
         value = value_next;

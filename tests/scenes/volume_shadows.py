@@ -5,7 +5,7 @@ import math
 import os
 
 from harness import Suite, box_interval, unit
-from scenes import constant, effect, front_scene, quad, volume, voxels
+from scenes import FRONT, constant, effect, front_scene, quad, scene, volume, voxels
 
 suite = Suite()
 
@@ -53,6 +53,8 @@ def slab():
     ):
         got = suite.middle(front_scene(light, cloud()), *FINE)
         suite.close(name, got, (expected,) * 3 + (SEEN,), 2e-4)
+    got = suite.middle(scene(FRONT, cloud()), *FINE)
+    suite.close("headlight", got[:3], (0.5 * (1 - math.exp(-2 * SIGMA)),) * 3, 2e-4)
 
 
 @suite.case
@@ -211,6 +213,8 @@ def surfaces_of_value():
         text = f"IsoSurfaceVolumeData {{ surfaceValues [ {values} ] voxels {sheet} renderStyle {style} }}\n"
         got = on_floor(ASLANT, aside(text))
         suite.close(f"alpha {alpha}, {values}", got[1:], [ARRIVES * (1 - alpha) ** n for n in (crossings, crossings, 0)])
+    old = f"VolumeData {{ voxels {sheet} renderStyle ISOSurfaceVolumeStyle {{ lighting TRUE shadows TRUE }} }}\n"
+    suite.close("of 2005: at 0.5, as opaque as that", on_floor(ASLANT, aside(old))[1:], [ARRIVES * t for t in (0.25, 0.25, 1)])
 
 
 @suite.case
