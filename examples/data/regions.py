@@ -14,7 +14,7 @@ META "picture" "480x360"
 # A brain coloured by region: the 116 segments of the AAL atlas on the scan that it was drawn on, each with an opacity map of its
 # own; left and right have the same hue. A box is cut out, and what lies between the regions is grey. The light is
 # an author's effect on all segments. Written by examples/data/regions.py.
-Viewpoint { position 0.3 0.28 0.42 orientation -0.5878 0.7864 0.1906 0.7648 fieldOfView 0.35 }
+Viewpoint { position 0.3 0.28 0.42 orientation -0.6089 0.7689 0.1951 0.7898 fieldOfView 0.36 }
 Background { skyColor 0.03 0.035 0.05 }
 NavigationInfo { headlight FALSE }
 Transform {
