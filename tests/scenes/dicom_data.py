@@ -130,10 +130,11 @@ def rle_frame(planes):
         segments)
 
 
-def jpeg_lossless(columns, rows, values, bits):
+def jpeg_lossless(columns, rows, values, bits, components=1):
     """ITU-T T.81, process 14, first-order prediction: every difference as five bits of category,
-    then its own bits."""
+    then its own bits; the components of a pixel one after the other."""
     out, pending, count = bytearray(), 0, 0
+    step, line = components, columns * components
 
     def put(value, size):
         nonlocal pending, count
@@ -144,19 +145,20 @@ def jpeg_lossless(columns, rows, values, bits):
             out.extend((byte, 0) if byte == 0xFF else (byte,))
         pending &= (1 << count) - 1
 
-    for y in range(rows):
-        for x in range(columns):
-            at = y * columns + x
-            before = values[at - 1] if x else values[at - columns] if y else 1 << bits - 1
-            difference = (values[at] - before + 32768) % 65536 - 32768
-            size = abs(difference).bit_length()
-            put(size, 5)
-            if size < 16:
-                put(difference + (difference < 0) * ((1 << size) - 1), size)
+    for at, value in enumerate(values):
+        before = (values[at - step] if at % line >= step
+                  else values[at - line] if at >= line else 1 << bits - 1)
+        difference = (value - before + 32768) % 65536 - 32768
+        size = abs(difference).bit_length()
+        put(size, 5)
+        if size < 16:
+            put(difference + (difference < 0) * ((1 << size) - 1), size)
     put((1 << -count % 8) - 1, -count % 8)
-    table = bytes([0] + [0] * 4 + [17] + [0] * 11) + bytes(range(17))
-    parts = ((0xC3, struct.pack(">BHHB3B", bits, rows, columns, 1, 1, 0x11, 0)), (0xC4, table),
-             (0xDA, bytes([1, 1, 0, 1, 0, 0])))
+    each = range(1, components + 1)
+    frame = struct.pack(">BHHB", bits, rows, columns, components)
+    parts = ((0xC3, frame + b"".join(bytes([c, 0x11, 0]) for c in each)),
+             (0xC4, bytes([0] + [0] * 4 + [17] + [0] * 11) + bytes(range(17))),
+             (0xDA, bytes([components]) + b"".join(bytes([c, 0]) for c in each) + b"\1\0\0"))
     head = b"".join(bytes([0xFF, mark]) + struct.pack(">H", len(data) + 2) + data
                     for mark, data in parts)
     return b"\xff\xd8" + head + bytes(out) + b"\xff\xd9"

@@ -112,15 +112,18 @@ def colour():
     packed = dict(rgb, x7FE00010=None)
     values, by_plane = [255, 0, 51, 0, 102, 255], [255, 0, 0, 102, 51, 255]
     planes = d.fragments([d.rle_frame([bytes(by_plane[2 * c:2 * c + 2]) for c in range(3)])])
+    jpeg = d.fragments([d.jpeg_lossless(2, 1, values, 8, 3)])
     cases = {
         "by pixel": one(values, 2, x00280006=0, **rgb),
         "by plane": one(by_plane, 2, x00280006=1, **rgb),
         "RLE, by pixel": dicom(image(2, 1, b"", x00280006=0, **packed), d.RLE, planes),
         "RLE, by plane": dicom(image(2, 1, b"", x00280006=1, **packed), d.RLE, planes),
+        "JPEG, by pixel": dicom(image(2, 1, b"", x00280006=0, **packed), d.JPEG_LOSSLESS, jpeg),
+        "JPEG, by plane": dicom(image(2, 1, b"", x00280006=1, **packed), d.JPEG_LOSSLESS, jpeg),
         "YBR_FULL": one([76, 85, 255, 128, 128, 128], 2,
                         **dict(rgb, x00280004="YBR_FULL", x00280006=0)),
     }
-    wanted = [values] * 4 + [[254, 0, 0, 128, 128, 128]]
+    wanted = [values] * 6 + [[254, 0, 0, 128, 128, 128]]
     colours, result = draw([Case(name, "a.dcm", {"a.dcm": content}, [0, 0], fields="")
                             for name, content in cases.items()],
                            [f"case{i}/" for i in range(len(cases))])
