@@ -37,9 +37,9 @@ size_t plr_dicom_numbers(const plr_dicom *file, size_t frame, uint32_t group, ui
 void plr_dicom_text(const plr_dicom *file, uint32_t tag, char *text, size_t size);
 bool plr_dicom_has(const plr_dicom *file, uint32_t tag);
 
-/* Unpacks a frame of JPEG or the like in native byte order, colours as PlanarConfiguration says: `size` bytes;
- * there must be room for one more where that is odd. Quickest in order of frames. `photometric`
- * becomes that of what was unpacked. */
+/* Unpacks a frame of JPEG or the like in native byte order, colours as PlanarConfiguration says:
+ * `size` bytes; there must be room for one more where that is odd. Quickest in order of frames.
+ * `photometric` becomes that of what was unpacked. */
 bool plr_dicom_frame(plr_dicom *file, size_t frame, void *out, size_t size, char photometric[32],
                      char fault[PLR_DICOM_FAULT]);
 
