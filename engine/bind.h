@@ -65,6 +65,7 @@ typedef struct plr_volume_state {
     double reference; /* reference length of opacity */
     double step;      /* sample distance, own coordinates */
     size_t index;
+    bool authors_see_all; /* an effect of an author needs every sample */
     plr_grid *grid;
     plr_texture *labels; /* segment numbers; or NULL */
     plr_volume_kind kind;

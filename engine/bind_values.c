@@ -155,6 +155,9 @@ static void v_map_count(const plr_known_context *c, float *out) {
 static void v_transfer_place(const plr_known_context *c, float *out) {
     memcpy(out, c->binding->function->rect, sizeof c->binding->function->rect);
 }
+static void v_visible_values(const plr_known_context *c, float *out) {
+    memcpy(out, c->binding->function->visible, sizeof c->binding->function->visible);
+}
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
 }
@@ -262,6 +265,7 @@ static const plr_known known[] = {
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
     {"segmentMapCount", OWNER_VOLUME, v_map_count},
     {"transferPlace", OWNER_FUNCTION, v_transfer_place},
+    {"visibleValues", OWNER_FUNCTION, v_visible_values},
     {"voxelLength", OWNER_VOLUME, v_voxel_length},
     {"approach", OWNER_VOLUME, v_approach},
     {"volumeIndex", OWNER_VOLUME, v_volume_index},

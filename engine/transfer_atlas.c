@@ -1,5 +1,6 @@
 #include "engine/transfer_atlas.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,12 +67,24 @@ static void paste(const float *texels, uint32_t width, uint32_t height, uint32_t
     }
 }
 
-static void paste_place(const plr_atlas *atlas, const plr_atlas_place *place, bool reversed,
-                        float *out) {
+/* Between which values a row is not clear; 0 and 1 are the centres of its outer texels. */
+static void find_visible(const float *texels, uint32_t width, float visible[2]) {
+    uint32_t first = 0, end = width;
+    while (first < end && texels[4 * (size_t)first + 3] <= 0)
+        first++;
+    while (end > first && texels[4 * (size_t)end - 1] <= 0)
+        end--;
+    bool any = first < end;
+    visible[0] = !any ? INFINITY : first == 0 ? -INFINITY : (float)(first - 1) / (float)(width - 1);
+    visible[1] = end == width ? INFINITY : (float)end / (float)(width - 1);
+}
+
+static void paste_place(const plr_atlas *atlas, plr_atlas_place *place, bool reversed, float *out) {
     float ramp[4 * RAMP_TEXELS];
     uint32_t row = (uint32_t)place->rect[1] - MARGIN;
     if (!place->function) {
         fill_ramp(ramp, reversed);
+        find_visible(ramp, RAMP_TEXELS, place->visible);
         paste(ramp, RAMP_TEXELS, 1, row, atlas->width, out);
         return;
     }
@@ -80,6 +93,7 @@ static void paste_place(const plr_atlas *atlas, const plr_atlas_place *place, bo
     if (!texels)
         return; /* black and transparent */
     plr_image_convert(image, 4, PLR_FLOAT32, texels);
+    find_visible(texels, image->width, place->visible);
     paste(texels, image->width, image->height, row, atlas->width, out);
     free(texels);
 }

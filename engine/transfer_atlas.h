@@ -9,6 +9,7 @@
  * in texels of the atlas. */
 typedef struct plr_atlas_place {
     float rect[4];
+    float visible[2];      /* outside of this open interval of S its first row is clear */
     plr_texture *function; /* NULL: the default ramp */
 } plr_atlas_place;
 

@@ -58,19 +58,19 @@ typedef struct ray_use {
     bool *layers;     /* by volume: an effect of its own composites */
 } ray_use;
 
-static void note_calls(const plr_program *program, size_t plug, const plr_recipe *recipe,
-                       ray_use *use) {
+static void note_calls(plr_volume_pass *pass, const plr_program *program, size_t plug,
+                       const plr_recipe *recipe, ray_use *use) {
     const plr_plug_info *info = plr_program_plug(program, plug);
     bool composite = strcmp(info->name, "volume_composite") == 0;
-    if (!composite && strcmp(info->name, "volume_ray_end") != 0)
-        return;
+    bool ends = strcmp(info->name, "volume_ray_end") == 0;
     for (size_t call = 0; call < info->call_count; call++) {
         plr_place place;
         size_t effect = plr_program_plug_call(program, plug, call, &place);
         if (effect == PLR_NO_EFFECT || recipe->effects.items[effect].builtin)
             continue;
-        use->accumulates = true;
         size_t volume = recipe->bindings.items[effect].volume;
+        plr_volume_note_call(pass, info->name, volume);
+        use->accumulates = use->accumulates || composite || ends;
         if (composite && volume != PLR_NO_EFFECT)
             use->layers[volume] = true;
     }
@@ -80,7 +80,7 @@ static ray_use find_ray_use(plr_view *view, plr_cast *cast) {
     ray_use use = {.layers = PLR_NEW_ARRAY(&view->arena, view->volumes.count, bool)};
     plr_program *program = plr_link_recipe(&view->composer, &cast->pass.recipe, false, NULL);
     for (size_t i = 0; program && i < plr_program_plug_count(program); i++)
-        note_calls(program, i, &cast->pass.recipe, &use);
+        note_calls(&view->volumes, program, i, &cast->pass.recipe, &use);
     plr_program_destroy(&program);
     return use;
 }

@@ -31,7 +31,8 @@ void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, si
 
 /* ---- Bricks (volume_bricks.c) ---- */
 
-/* The sides of bricks that fit into textures of so many texels a side (0: any) and so many bytes. */
+/* The sides of bricks that fit into textures of so many texels a side (0: any) and so many bytes.
+ */
 void plr_bricks_plan(const plr_image *image, uint32_t most_side, size_t most_bytes,
                      uint32_t sides[3]);
 /* Calls `cast` for each brick, the farthest first, with the grid set to it. Needs GL. */
@@ -45,8 +46,17 @@ void plr_volume_order(plr_view *view, size_t *members, size_t count);
 
 /* ---- Programs (volume_recipe.c) ---- */
 
+/* Notes that an effect of an author is called at a plug, of a volume or (PLR_NO_EFFECT) of all:
+ * what it does with samples nobody knows (volume_skip.c). */
+void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume);
+/* Whether samples that the leading opacity maps of a volume make clear stay so in its styles
+ * (volume_skip.c). */
+bool plr_volume_keeps_clear(const plr_volume_state *state);
+/* Whether a cast may pass over samples of such volumes: nobody else asks for each of them. */
+bool plr_cast_skips(const plr_view *view, const plr_cast *cast, bool early_end);
 void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
-/* The clip planes of a volume: its own, in the node's coordinates, and those of the scene around it.
+/* The clip planes of a volume: its own, in the node's coordinates, and those of the scene around
+ * it.
  */
 void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached);
 

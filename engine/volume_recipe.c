@@ -20,6 +20,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
         {"HAS_LABELS", state->labels ? "1" : "0"},
+        {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_PROJECTED ? "1" : "0"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
@@ -192,4 +193,5 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
         plr_recipe_author_list(k, recipe, pass->leaves[cast->members[i]]->node, attached[i],
                                cast->members[i]);
     add_group_effects(view, cast, attached);
+    plr_recipe_define(k, recipe, "SKIPS", plr_cast_skips(view, cast, early_end));
 }

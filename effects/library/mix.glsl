@@ -2,22 +2,19 @@
  * them; opaque samples hide translucent ones and are averaged among themselves. */
 
 struct VolumeMix {
-    vec3 weighted;  /* sum of colour * optical depth */
-    float depth;    /* sum of optical depths */
-    vec3 opaque;    /* sum of the colours of opaque samples */
-    float opaques;  /* how many */
+    vec4 sum;    /* of colour * optical depth, and of the depths; or of opaque colours, and how many */
+    bool opaque; /* whether any sample is */
 };
 
 /* `length_ratio`: step length over reference length, both in the volume's own coordinates. */
 void volume_mix_add(inout VolumeMix mixed, const in vec4 color, const in float length_ratio) {
-    if (color.a >= 1.0) {
-        mixed.opaque += color.rgb;
-        mixed.opaques += 1.0;
+    bool opaque = color.a >= 1.0;
+    if (mixed.opaque && !opaque)
         return;
-    }
-    float depth = -log(1.0 - color.a) * length_ratio;
-    mixed.weighted += color.rgb * depth;
-    mixed.depth += depth;
+    float weight = opaque ? 1.0 : -log(1.0 - color.a) * length_ratio;
+    vec4 added = weight * vec4(color.rgb, 1.0);
+    mixed.sum = mixed.opaque == opaque ? mixed.sum + added : added;
+    mixed.opaque = opaque;
 }
 
 /* What an optical depth hides: 1 - exp(-depth). That loses its digits where little is hidden, as in
@@ -30,9 +27,7 @@ float opacity_of_depth(const in float depth) {
 
 /* Straight colour and the opacity of the step. */
 vec4 volume_mix_color(const in VolumeMix mixed) {
-    if (mixed.opaques > 0.0)
-        return vec4(mixed.opaque / mixed.opaques, 1.0);
-    if (!(mixed.depth > 0.0))
+    if (!(mixed.sum.a > 0.0))
         return vec4(0.0);
-    return vec4(mixed.weighted / mixed.depth, opacity_of_depth(mixed.depth));
+    return vec4(mixed.sum.rgb / mixed.sum.a, mixed.opaque ? 1.0 : opacity_of_depth(mixed.sum.a));
 }

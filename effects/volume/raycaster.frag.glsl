@@ -18,7 +18,7 @@ uniform int hasPartStart;
 #if HAS_CUT
 uniform vec2 viewpointCut; /* near and far distance that the viewpoint asks for, as planes */
 #endif
-#if EARLY_END
+#if EARLY_END || WRITES_DEPTH
 uniform float transparencyLeft; /* rays end where less than this shines through */
 #endif
 
@@ -30,11 +30,25 @@ out vec4 plugray_FragColor;
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
 
+#if SKIPS
+const int LOOK_AHEAD = 32; /* steps, one a bit */
+#if MIXES
+vec2 ahead_ways[LOOK_AHEAD]; /* the middles of the steps ahead, and their lengths */
+vec4 ahead_sums[LOOK_AHEAD]; /* of those that something was found in, see VolumeMix */
+uint ahead_mixed;
+uint ahead_opaque;
+#endif
+
+int lowest_bit(uint bits) {
+    return (floatBitsToInt(float(bits & (0u - bits))) >> 23) - 127;
+}
+#endif
+
 #if HAS_PARTS
 float part_start = 0.0;
 float part_end = NOWHERE; /* where it is not the end of the ray */
 #endif
-#if EARLY_END
+#if EARLY_END || WRITES_DEPTH
 /* Whether nothing behind can be seen any more; of a ray that picks, whether something is seen. */
 bool is_ended(float alpha) {
 #if PICKS
@@ -59,13 +73,11 @@ float ended_at = NOWHERE;
 
 /* Notes where the ray ends. */
 void note_end(float alpha, float t) {
-#if EARLY_END
     if (ended_at < NOWHERE || !is_ended(alpha))
         return;
     ended_at = t;
 #if PICKS
     picked = vec2(met_volume, met_surface);
-#endif
 #endif
 }
 #endif
@@ -98,6 +110,21 @@ float distance_depth(float t, vec3 direction_eye, float before) {
     float ndc = (p[2][2] * z + p[3][2]) / (p[2][3] * z + p[3][3]);
     float depth = clamp((ndc - depthToClip.y) / depthToClip.x, 0.0, 1.0);
     return emptyDepth == 0.0 ? max(depth, before) : min(depth, before);
+}
+#endif
+
+#if !HAS_EVENTS
+/* Where a step of a part of the ray begins, and how long it is. */
+vec2 step_way(int i, int steps, float t, float t_next, float step_length) {
+    float from = t + float(i) * step_length;
+#if HAS_PARTS
+    /* steps stay where they are along the whole ray; those at its ends are shortened */
+    from = max(from, part_start);
+    return vec2(from, max((i == steps - 1 ? t_next : t + float(i + 1) * step_length) - from, 0.0));
+#else
+    /* the last step is shortened: lengths add up to the part */
+    return vec2(from, i == steps - 1 ? t_next - from : step_length);
+#endif
 }
 #endif
 
@@ -140,6 +167,68 @@ void main() {
     float depth = NOWHERE;
 #endif
     float t = NOWHERE;
+#if MIXES && SKIPS
+    /* Most samples of most volumes cannot be seen. The way is planned for some steps ahead; each volume
+     * finds out at the least cost where it can be seen, and mixes itself into those steps alone. */
+    bool ended = false;
+    int i = 0, steps = 0;
+    /* PLUG: volume_first (t) */
+    float t_next = t;
+    float step_length = NOWHERE;
+    while (t < NOWHERE && !ended) {
+        int count = 0;
+        while (count < LOOK_AHEAD && t < NOWHERE) {
+            if (i == steps) { /* from one entry or exit to the next: steps never straddle one */
+                t = t_next;
+                t_next = NOWHERE;
+                step_length = NOWHERE;
+                /* PLUG: volume_part (t, t_next, step_length) */
+                steps = step_length < NOWHERE ? max(step_count(t_next - t, step_length), 1) : 1;
+                i = 0;
+                if (t_next >= NOWHERE)
+                    t = NOWHERE;
+            }
+            if (t < NOWHERE) {
+                vec2 way = step_way(i, steps, t, t_next, step_length);
+                ahead_ways[count] = vec2(way.x + 0.5 * way.y, way.y);
+                /* PLUG: volume_plan (count, ahead_ways[count].x) */
+                count++;
+                i++;
+            }
+        }
+        ahead_mixed = 0u;
+        ahead_opaque = 0u;
+        /* PLUG: volume_mix_ahead (count, origin_eye, direction_eye) */
+        while (ahead_mixed != 0u) {
+            int k = lowest_bit(ahead_mixed);
+            ahead_mixed &= ahead_mixed - 1u;
+            float t_middle = ahead_ways[k].x;
+            VolumeSample s;
+            vec4 color = volume_mix_color(VolumeMix(ahead_sums[k], (ahead_opaque >> uint(k) & 1u) != 0u));
+#if READS(position_eye)
+            s.position_eye = origin_eye + t_middle * direction_eye;
+#endif
+#if READS(step_length)
+            s.step_length = ahead_ways[k].y;
+#endif
+#if READS(volume)
+            s.volume = -1;
+#endif
+            /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+            if (depth >= NOWHERE && accumulated.a > 0.0)
+                depth = t_middle;
+#endif
+#if WRITES_DEPTH
+            note_end(accumulated.a, t_middle);
+#endif
+            if (is_ended(accumulated.a)) {
+                ended = true;
+                break;
+            }
+        }
+    }
+#else
 #if MIXES
     bool ended = false;
     /* PLUG: volume_first (t) */
@@ -160,9 +249,25 @@ void main() {
 #else
         int steps = step_count(t_next - t, step_length);
 #endif
+#if SKIPS
+        /* Most samples of most volumes cannot be seen. That is found out first for some steps ahead, at
+         * the least cost; then what can be seen is drawn, in the same places. */
+        int ahead = 0;
+        while (ahead < steps) {
+            int first = ahead;
+            uint visible = 0u;
+            for (; ahead < steps && ahead < first + LOOK_AHEAD; ahead++) {
+                vec2 way = step_way(ahead, steps, t, t_next, step_length);
+                /* PLUG: volume_look_ahead (visible, ahead - first, way.x + 0.5 * way.y) */
+            }
+            while (visible != 0u) {
+                int i = first + lowest_bit(visible);
+                visible &= visible - 1u;
+#else
         for (int i = 0; i < steps; i++) {
-            float from = t + float(i) * step_length;
+#endif
 #if HAS_EVENTS
+            float from = t + float(i) * step_length;
             float to = i == steps - 1 ? t_next : t + float(i + 1) * step_length;
             /* PLUG: volume_look (from, to, origin_eye, direction_eye) */
             /* a surface splits the step: what is before it, the surface itself, what is behind */
@@ -170,13 +275,10 @@ void main() {
                 float event = NOWHERE;
                 /* PLUG: volume_event (event) */
                 float span = min(event, to) - from;
-#elif HAS_PARTS
-            /* steps stay where they are along the whole ray; those at its ends are shortened */
-            from = max(from, part_start);
-            float span = max((i == steps - 1 ? t_next : t + float(i + 1) * step_length) - from, 0.0);
 #else
-            /* the last step is shortened: lengths add up to the part */
-            float span = i == steps - 1 ? t_next - from : step_length;
+            vec2 way = step_way(i, steps, t, t_next, step_length);
+            float from = way.x;
+            float span = way.y;
 #endif
             float t_middle = from + 0.5 * span;
             VolumeSample s;
@@ -186,7 +288,7 @@ void main() {
 #if HAS_EVENTS
             if (span > 0.0) {
 #endif
-            VolumeMix mixed = VolumeMix(vec3(0.0), 0.0, vec3(0.0), 0.0);
+            VolumeMix mixed = VolumeMix(vec4(0.0), false);
 #if PICKS
             met_depth = -1.0;
 #endif
@@ -239,16 +341,24 @@ void main() {
             }
 #endif
 #if EARLY_END
-            if (is_ended(accumulated.a))
+            if (is_ended(accumulated.a)) {
+#if SKIPS
+                ahead = steps;
+#endif
                 break;
+            }
 #endif
         }
+#if SKIPS
+        }
+#endif
 #if MIXES
 #if EARLY_END
         ended = is_ended(accumulated.a);
 #endif
         t = t_next;
     }
+#endif
 #endif
     /* PLUG: volume_ray_end (accumulated, depth) */
 #if PICKS

@@ -11,7 +11,69 @@ void step_color(out vec4 color, out VolumeSample s, const in float t, const in f
     style_sample(color, s);
 }
 
+#if SKIPS
+/* Whether the sample at t can add anything: what is clear before the styles stays so, if KEEPS_CLEAR. */
+bool is_visible(const in float t) {
+#if KEEPS_CLEAR
+    vec4 value = voxel_at(ray_origin + t * ray_direction);
+    bool visible = voxel_color(value).a > 0.0;
+    /* PLUG: volume_visible (visible, value) */
+    return visible;
+#else
+    return true;
+#endif
+}
+
 #if MIXES
+int ahead_start; /* which of the steps ahead are in the volume */
+int ahead_end;
+
+/* Step k of those ahead has its middle at t. */
+void PLUG_volume_plan(const in int k, const in float t) {
+    if (k == 0)
+        ahead_start = ahead_end = 0;
+    if (t < enter)
+        ahead_start = k + 1;
+    if (t < leave)
+        ahead_end = k + 1;
+}
+
+/* Mixes what can be seen of this volume into the steps ahead, of which there are `count`. */
+void PLUG_volume_mix_ahead(const in int count, const in vec3 origin_eye,
+                           const in vec3 direction_eye) {
+    uint visible = 0u;
+    int end = min(ahead_end, count);
+    for (int k = ahead_start; k < end; k++)
+        if (is_visible(ahead_ways[k].x))
+            visible |= 1u << uint(k);
+    while (visible != 0u) {
+        int k = lowest_bit(visible);
+        uint bit = 1u << uint(k);
+        visible ^= bit;
+        vec2 way = ahead_ways[k];
+        vec4 color;
+        VolumeSample s;
+        step_color(color, s, way.x, way.y, origin_eye, direction_eye);
+        VolumeMix mixed = VolumeMix(vec4(0.0), false);
+        if ((ahead_mixed & bit) != 0u)
+            mixed = VolumeMix(ahead_sums[k], (ahead_opaque & bit) != 0u);
+        volume_mix_add(mixed, color, way.y * ray_speed / referenceLength);
+        ahead_sums[k] = mixed.sum;
+        ahead_mixed |= bit;
+        if (mixed.opaque)
+            ahead_opaque |= bit;
+    }
+}
+#else
+void PLUG_volume_look_ahead(inout uint visible, const in int bit, const in float t) {
+    if (is_visible(t))
+        visible |= 1u << uint(bit);
+}
+#endif
+#endif
+
+#if MIXES
+#if !SKIPS
 void PLUG_volume_mix(inout VolumeMix mixed, const in float t, const in float span,
                      const in vec3 origin_eye, const in vec3 direction_eye) {
     if (!(enter <= t && t < leave))
@@ -29,6 +91,7 @@ void PLUG_volume_mix(inout VolumeMix mixed, const in float t, const in float spa
     }
 #endif
 }
+#endif
 #else
 void PLUG_volume_step(out vec4 color, out VolumeSample s, const in float t, const in float span,
                       const in vec3 origin_eye, const in vec3 direction_eye) {

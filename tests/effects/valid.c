@@ -277,26 +277,37 @@ static const plr_define fog_of_volume[] = {
     {"HAS_PARTS", "0"}, {"WRITES_DEPTH", "0"}, {                                                   \
         "PICKS", "0"                                                                               \
     }
+#define EVERY_STEP                                                                                 \
+    { "SKIPS", "0" }
 static const plr_define one_volume[] = {
     {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
-    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS};
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         EVERY_STEP};
+static const plr_define one_skipping[] = {
+    {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SKIPS", "1"}};
+static const plr_define two_skipping[] = {
+    {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SKIPS", "1"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
-    {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS};
+    {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
 static const plr_define surfaces[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"}, {"HAS_STEPS", "0"},
                                       {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
-                                      WHOLE_RAYS};
+                                      WHOLE_RAYS,          EVERY_STEP};
 static const plr_define one_in_parts[] = {
     {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "1"}, {"HAS_CUT", "0"},    {"HAS_PARTS", "1"}, {"WRITES_DEPTH", "1"},
-    {"PICKS", "0"},     {"writeDepth", "1"}};
+    {"PICKS", "0"},     {"writeDepth", "1"}, EVERY_STEP};
 static const plr_define all_in_parts[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "1"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    {"HAS_PARTS", "1"}, {"WRITES_DEPTH", "1"},
-    {"PICKS", "0"},     {"writeDepth", "1"}};
+    {"PICKS", "0"},     {"writeDepth", "1"}, EVERY_STEP};
 static const plr_define picks[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"},   {"HAS_STEPS", "1"},
                                    {"HAS_OPAQUE", "1"}, {"EARLY_END", "1"},    {"HAS_CUT", "0"},
-                                   {"HAS_PARTS", "0"},  {"WRITES_DEPTH", "0"}, {"PICKS", "1"}};
+                                   {"HAS_PARTS", "0"},  {"WRITES_DEPTH", "0"}, {"PICKS", "1"},
+                                   EVERY_STEP};
+static const plr_define keeping[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"KEEPS_CLEAR", "1"}};
 static const plr_define scalar[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "0"}};
 static const plr_define labelled[] = {
@@ -601,6 +612,22 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
      .absent = "normal_ gradient MaterialInfo position_eye"},
+    {"one volume that looks ahead",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(keeping)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(one_skipping),
+     .present = "lowest_bit volume_visible",
+     .absent = "VolumeMix ahead_sums"},
+    {"two volumes that look ahead",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(keeping)},
+      {.path = STEPPED, DEFINES(keeping)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(two_skipping),
+     .present = "lowest_bit volume_visible VolumeMix ahead_sums"},
     {"one lit volume",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},
