@@ -4,6 +4,7 @@
 
 #include "engine/targets.h"
 #include "engine/update.h"
+#include "engine/volume_geometry.h"
 
 /* ---- Is it the same? ---- */
 
@@ -56,8 +57,9 @@ static bool same_flats(const plr_flat *a, const plr_flat *b) {
 
 /* A volume is left out while its space has no extent. */
 static bool has_extent(const plr_leaves *volumes) {
+    static const double any_size[3] = {1, 1, 1};
     for (size_t i = 0; i < volumes->count; i++)
-        if (!(plr_matrix_determinant3(&volumes->items[i].to_world) != 0))
+        if (!plr_volume_has_extent(&volumes->items[i].to_world, any_size))
             return false;
     return true;
 }

@@ -6,6 +6,23 @@
 /* Columns of directions that are closer to a plane than this span no volume. */
 #define LEAST_SPAN 1e-6
 
+/* Lengths from one over this to this: their squares, and quotients of two, are floats. */
+#define MOST_LENGTH 1e18
+
+bool plr_volume_has_extent(const plr_matrix *to_world, const double dimensions[3]) {
+    plr_matrix inverse;
+    if (!plr_matrix_invert(to_world, &inverse))
+        return false;
+    bool fine = true;
+    for (int axis = 0; axis < 3; axis++) {
+        const double *there = &to_world->m[4 * axis], *back = &inverse.m[4 * axis];
+        fine = fine && hypot(hypot(there[0], there[1]), there[2]) <= MOST_LENGTH;
+        fine = fine && hypot(hypot(back[0], back[1]), back[2]) <= MOST_LENGTH;
+        fine = fine && dimensions[axis] >= 1 / MOST_LENGTH && dimensions[axis] <= MOST_LENGTH;
+    }
+    return fine;
+}
+
 static bool left_handed(plr_volume_space space) {
     return space == PLR_SPACE_LAS || space == PLR_SPACE_LEFT_HANDED;
 }

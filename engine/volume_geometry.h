@@ -30,4 +30,8 @@ plr_matrix plr_volume_affine(const plr_volume *volume);
  * "down"; NULL where the space does not say. `letter` (may be NULL) gets L R A P S I. */
 const char *plr_space_direction(plr_volume_space space, int axis, double step, char *letter);
 
+/* Whether a space, and a box in it, are of a size with which floats can compute: lengths are
+ * squared. */
+bool plr_volume_has_extent(const plr_matrix *to_world, const double dimensions[3]);
+
 #endif

@@ -267,15 +267,16 @@ static void measure(const plr_view *view, plr_volume_state *state, const uint32_
 bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
                      plr_diags *diags) {
     *state = (plr_volume_state){.node = leaf->node};
-    plr_matrix inverse;
-    if (!plr_matrix_invert(&leaf->to_world, &inverse)) {
-        plr_diags_add(diags, PLR_CODE_BAD_VOLUME, plr_node_place(leaf->node),
-                      "the volume has no extent: its transformation is singular");
-        return false;
-    }
     const plr_kept_volume *kept = plr_volume_keep(view, leaf->node, diags);
     if (!kept)
         return false;
+    if (!plr_volume_has_extent(&leaf->to_world, kept->grid.dimensions)) {
+        plr_diags_add(
+            diags, PLR_CODE_BAD_VOLUME, plr_node_place(leaf->node),
+            "the volume has no extent: its transformation is singular, or its size is out "
+            "of the range of numbers");
+        return false;
+    }
     state->grid = PLR_NEW(&view->arena, plr_grid);
     *state->grid = kept->grid;
     *PLR_PUSH(&view->arena, &view->volumes.grids) = state->grid;

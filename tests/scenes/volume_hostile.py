@@ -54,4 +54,23 @@ def doubled_styles():
         suite.equal(leaf, [m[3] for m in result.with_code("limit")], ["error"])
 
 
+@suite.case
+def sizes():
+    "huge and tiny boxes of the same place in the scene: the same picture, or an error where no float is left"
+    for style in ("", "ShadedVolumeStyle { lighting TRUE }"):
+        pictures = []
+        for size in (1, 1e-12, 1e12):
+            box = volume(TWO, style, dimensions=(size,) * 3)
+            pictures.append(draw(front_scene(f"Transform {{ scale {1 / size} {1 / size} {1 / size} children [ {box} ] }}"))[0])
+        for size, got in zip((1e-12, 1e12), pictures[1:]):
+            for pixel, want in zip(got, pictures[0]):
+                suite.close(f"{style} {size:g}", pixel, want)
+    for size in (1e-38, 1e20):
+        for fields, dimensions in ((f"scale {1 / size} {1 / size} {1 / size}", size), (f"scale {size} 1 1", 1), ("", size)):
+            box = volume(TWO, dimensions=(dimensions,) * 3)
+            got, result = draw(front_scene(f"Transform {{ {fields} children [ {box} ] }}"), status=1)
+            suite.equal(f"{size:g} {fields}", (got[0], [m[3] for m in result.with_code("bad-volume")]),
+                        ((0, 0, 0, 0), ["error"]))
+
+
 suite.run()
