@@ -2,9 +2,10 @@
  * ShadowRay.glsl's effect, beside levels.glsl.
  *
  * The value at both ends of a step tells which surfaces lie between; where each is crossed is then
- * found. The first half voxel counts as empty, so that a surface does not shadow itself. */
+ * found. What is near the place itself counts as empty: from cell to cell a trilinear surface has steps that its
+ * normals do not have, and these would lie in their own shadow. */
 
-const float OWN_VOXELS = 0.5;
+const float OWN_VOXELS = 1.5;
 
 float value_at(const in float t) {
     VolumeSample s;
