@@ -13,9 +13,17 @@
 
 /* ---- Who meets whom ---- */
 
-/* Whether a box lies beyond one of the faces of another: each has its corners in the other's
- * coordinates. Touching is not meeting. */
-static bool is_beyond(const plr_matrix *to_other, double own[2][3], double other[2][3]) {
+/* Where one thing is for somebody who looks at two. */
+typedef enum side {
+    MEETING, /* nobody knows: no plane was found between them */
+    BEHIND,  /* it never hides the other one */
+    BEFORE   /* it is never hidden by it */
+} side;
+
+/* Looks for a face of the other box beyond which this one lies, in the other's coordinates, as
+ * `eye` is; that face tells which one may hide which. Touching is not meeting. */
+static side find_side(const plr_matrix *to_other, double own[2][3], double other[2][3],
+                      const double eye[3]) {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int corner = 0; corner < 8; corner++) {
         double point[3];
@@ -27,36 +35,56 @@ static bool is_beyond(const plr_matrix *to_other, double own[2][3], double other
             high[axis] = fmax(high[axis], point[axis]);
         }
     }
-    for (int axis = 0; axis < 3; axis++)
-        if (high[axis] <= other[0][axis] || other[1][axis] <= low[axis])
-            return true;
-    return false;
+    for (int axis = 0; axis < 3; axis++) {
+        if (high[axis] <= other[0][axis])
+            return eye[axis] < other[0][axis] ? BEFORE : BEHIND;
+        if (other[1][axis] <= low[axis])
+            return eye[axis] > other[1][axis] ? BEFORE : BEHIND;
+    }
+    return MEETING;
 }
 
-static bool meets(const plr_volume_state *volume, const plr_surface *surface) {
+/* The eye in other coordinates; a direction is a place very far away. */
+static void look_from(const plr_matrix *from_world, const double eye[4], double place[3]) {
+    const double *m = from_world->m;
+    for (int row = 0; row < 3; row++) {
+        place[row] = m[row] * eye[0] + m[4 + row] * eye[1] + m[8 + row] * eye[2];
+        place[row] = eye[3] != 0 ? place[row] + m[12 + row] : place[row] * 1e30;
+    }
+}
+
+/* Where a surface is, seen from a place or, with w = 0, from a direction of the world. */
+static side side_of(const plr_volume_state *volume, const plr_surface *surface,
+                    const double eye[4]) {
     plr_matrix from_world, to_volume, to_surface;
-    double mesh[2][3], box[2][3];
+    double mesh[2][3], box[2][3], from_volume[3], from_surface[3];
     if (!plr_matrix_invert(&volume->to_world, &from_world))
-        return false;
+        return BEHIND;
     to_volume = plr_matrix_multiply(&from_world, &surface->to_world);
     for (int axis = 0; axis < 3; axis++)
-        for (int side = 0; side < 2; side++) {
-            mesh[side][axis] = (double)surface->model->mesh.bounds[side][axis];
-            box[side][axis] = volume->dimensions[axis] * (side - 0.5);
+        for (int end = 0; end < 2; end++) {
+            mesh[end][axis] = (double)surface->model->mesh.bounds[end][axis];
+            box[end][axis] = volume->dimensions[axis] * (end - 0.5);
         }
-    if (is_beyond(&to_volume, mesh, box))
-        return false;
-    return !plr_matrix_invert(&to_volume, &to_surface) || !is_beyond(&to_surface, box, mesh);
+    look_from(&from_world, eye, from_volume);
+    side found = find_side(&to_volume, mesh, box, from_volume);
+    if (found != MEETING || !plr_matrix_invert(&to_volume, &to_surface))
+        return found;
+    plr_matrix world_to_surface = plr_matrix_multiply(&to_surface, &from_world);
+    look_from(&world_to_surface, eye, from_surface);
+    found = find_side(&to_surface, box, mesh, from_surface);
+    return found == MEETING ? MEETING : found == BEFORE ? BEHIND : BEFORE;
 }
 
 bool plr_cast_meets(const plr_view *view, const plr_cast *cast, const plr_surface *surface) {
+    static const double nowhere[4] = {0, 0, 0, 1};
     const plr_model *model = surface->model;
     if (!model->pass.built || !model->mesh.index_count)
         return false;
     if (plr_model_is_moved(model))
         return true; /* nobody knows where to */
     for (size_t i = 0; i < cast->count; i++)
-        if (meets(&view->volumes.volumes[cast->members[i]], surface))
+        if (side_of(&view->volumes.volumes[cast->members[i]], surface, nowhere) == MEETING)
             return true;
     return false;
 }
@@ -174,6 +202,8 @@ static int farther_first(const void *a, const void *b) {
     const plr_blend *x = a, *y = b;
     if (x->depth != y->depth)
         return x->depth < y->depth ? 1 : -1;
+    if (x->surface->depth != y->surface->depth && !x->surface->inside && !y->surface->inside)
+        return x->surface->depth < y->surface->depth ? 1 : -1;
     if (x->surface != y->surface)
         return x->surface < y->surface ? -1 : 1; /* as in the scene */
     return (int)x->faces - (int)y->faces;
@@ -186,20 +216,48 @@ static bool is_flat(const plr_mesh *mesh) {
     return false;
 }
 
+/* The middle of what is large may be nearer than that of what it is behind: then it is taken to be
+ * just behind; and the other way round. */
+static double place_beside(const plr_view *view, const plr_surface *surface, const double eye[4]) {
+    double depth = surface->depth;
+    for (size_t i = 0; i < view->volumes.cast_count; i++) {
+        const plr_cast *cast = &view->volumes.casts[i];
+        if (surface->depth + surface->reach < cast->nearest ||
+            surface->depth - surface->reach > cast->farthest)
+            continue;
+        int behind = 0, before = 0;
+        for (size_t k = 0; k < cast->count; k++) {
+            side found = side_of(&view->volumes.volumes[cast->members[k]], surface, eye);
+            behind += found == BEHIND;
+            before += found == BEFORE;
+        }
+        if (behind && !before && !(depth > cast->depth))
+            depth = nextafter(cast->depth, INFINITY);
+        else if (before && !behind && depth > cast->depth)
+            depth = cast->depth;
+    }
+    return depth;
+}
+
 /* A surface inside that has two sides and room between them is drawn twice: what lies between its
  * far and its near faces, matter and other surfaces, comes between. */
-static size_t find_blends(plr_view *view) {
+static size_t find_blends(plr_view *view, const plr_frame *frame) {
     size_t count = 0;
+    plr_matrix to_world;
+    plr_matrix_invert(&frame->view, &to_world);
+    bool parallel = frame->projection.m[11] == 0;
+    const double *m = &to_world.m[parallel ? 8 : 12], eye[4] = {m[0], m[1], m[2], !parallel};
     for (size_t i = 0; i < view->blending_count; i++) {
         plr_surface *surface = view->blending[i];
         const plr_mesh *mesh = &surface->model->mesh;
         bool encloses = surface->inside && mesh->kind == PLR_MESH_TRIANGLES && mesh->two_sided &&
                         !is_flat(mesh);
         double shift = encloses ? surface->reach / 2 : 0;
+        double depth = surface->inside ? surface->depth : place_beside(view, surface, eye);
         view->blends[count++] =
-            (plr_blend){surface, encloses ? PLR_FACES_BACK : PLR_FACES_ALL, surface->depth + shift};
+            (plr_blend){surface, encloses ? PLR_FACES_BACK : PLR_FACES_ALL, depth + shift};
         if (encloses)
-            view->blends[count++] = (plr_blend){surface, PLR_FACES_FRONT, surface->depth - shift};
+            view->blends[count++] = (plr_blend){surface, PLR_FACES_FRONT, depth - shift};
     }
     qsort(view->blends, count, sizeof *view->blends, farther_first);
     return count;
@@ -228,7 +286,7 @@ void plr_frame_draw_translucent(plr_view *view, const plr_frame *frame, const pl
     drawing d = {.view = view, .frame = frame, .shot = shot, .last = -1};
     plr_volume_depths(view, frame);
     find_inside(&d);
-    size_t count = find_blends(view);
+    size_t count = find_blends(view, frame);
     for (size_t i = 0; i < count; i++)
         d.inside += view->blends[i].surface->inside;
     for (size_t i = 0; i < count; i++) {

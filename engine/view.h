@@ -29,6 +29,7 @@ typedef struct plr_cast {
     size_t *members; /* indices of volumes */
     size_t count;
     double depth; /* of the nearest centre, in this frame */
+    double nearest, farthest; /* of its boxes */
     bool divided; /* by translucent surfaces inside: it is drawn in parts */
     bool writes_depth;
     bool drawn;               /* in this frame */

@@ -14,12 +14,20 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame) {
     plr_volume_pass *pass = &view->volumes;
     for (size_t i = 0; i < pass->cast_count; i++) {
         plr_cast *cast = &pass->casts[i];
-        cast->depth = INFINITY;
+        cast->depth = cast->nearest = INFINITY;
+        cast->farthest = -INFINITY;
         cast->drawn = false;
         for (size_t k = 0; k < cast->count; k++) {
             plr_matrix to_eye =
                 plr_matrix_multiply(&frame->view, &pass->volumes[cast->members[k]].to_world);
             cast->depth = fmin(cast->depth, -to_eye.m[14]);
+            double reach = 0; /* of the corners, along the view */
+            for (int axis = 0; axis < 3; axis++)
+                reach += fabs(to_eye.m[4 * axis + 2] *
+                              pass->volumes[cast->members[k]].dimensions[axis]) /
+                         2;
+            cast->nearest = fmin(cast->nearest, -to_eye.m[14] - reach);
+            cast->farthest = fmax(cast->farthest, -to_eye.m[14] + reach);
         }
     }
     if (pass->cast_count > 1)

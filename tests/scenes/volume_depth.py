@@ -6,7 +6,7 @@ import os
 import re
 
 from harness import Suite, box_interval, opacity, over, premultiplied, unit
-from scenes import NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
+from scenes import FRONT, NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
 
 suite = Suite()
 
@@ -280,35 +280,41 @@ def moved():
 
 
 @suite.case
+def large_sheets():
+    "a large square behind a volume stays behind, though its middle is nearer, and the other way round"
+    tall = "Transform { translation 0 0 -1 scale 1 1 4 children [ %s ] }\n" % CUBE  # z from -3 to 1
+    def slope(x, z):
+        return (f"Transform {{ translation {x} 0 {z} rotation 0 1 0 {-math.pi / 4!r} children [ "
+                f"{two_sided(SHEET, 4.5 * math.sqrt(2))} ] }}\n")
+    views = {"parallel": FRONT, "perspective": "Viewpoint { position 0 0 10 }\n"}
+    for name, view in views.items():
+        for where, content, expected in (("behind", slope(4, 0.4), layers(matter(1), GREEN)),
+                                         ("before", slope(-4, -2.4), layers(GREEN, matter(1)))):
+            for parts in ((tall, content), (content, tall)):
+                suite.close(f"{where}, {name}", suite.middle(scene(view, NO_HEADLIGHT, *parts)), expected)
+
+
+@suite.case
 def written_depths():
-    "writeDepth: what is drawn after a volume is hidden behind where its rays end"
-    tall = "Transform { translation 0 0 -1 scale 1 1 4 children [ %s ] }\n"  # z from -3 to 1
-    # behind the volume, from x = -.5 on, but its middle is at x = 4, z = .4: it is drawn last
-    slope = (f"Transform {{ translation 4 0 .4 rotation 0 1 0 {-math.pi / 4!r} children [ "
-             f"{two_sided(SHEET, 4.5 * math.sqrt(2))} ] }}\n")
-    straight = at(-3.2, two_sided(SHEET))
-    for write, expected in (("TRUE", matter(1)), ("FALSE", layers(GREEN, matter(1)))):
-        data = tall % volume(constant(VALUE), fields=f"writeDepth {write}")
-        suite.close(f"drawn after: {write}", suite.middle(front_scene(data, slope)), expected)
-        suite.close(f"drawn before: {write}", suite.middle(front_scene(data, straight)),
-                    layers(matter(1), GREEN))
-    for name, value in (("where nothing is seen of the volume", 0), ("where it hides all", 255)):
-        data = tall % volume(constant(value), fields="writeDepth TRUE")
-        suite.close(name, suite.middle(front_scene(data, slope)),
-                    layers(GREEN) if value == 0 else (1, 1, 1, 1))
-    data = tall % volume(constant(VALUE), fields="writeDepth TRUE")
+    "writeDepth: what is cast after a volume ends where its rays end, surfaces behind are hidden"
+    def orange(length):
+        return premultiplied((1, 0.5, 0), opacity(VALUE / 255, length, 1))
+    tall = "Transform { translation 0 0 .5 scale 1 1 4 children [ %s ] }\n" % CUBE  # z from -1.5 to 2.5
+    before, whole = matter(0.5), matter(1)  # up to z = .5
+    def first(value, write):
+        return volume(constant(value), fields=f"writeDepth {write}", effects=effect(LAYER, BEFORE))
+    cases = (("as it is", VALUE, "FALSE", layers(whole, orange(1))),
+             ("it ends where the rays leave", VALUE, "TRUE", layers(matter(0.75), orange(1))),
+             ("where nothing more is seen", 255, "TRUE", layers(before, (1, 0.5, 0, 1))),
+             ("nothing where there is no trace", 0, "TRUE", whole))
+    for view in (FRONT, "Viewpoint { position 0 0 10 }\n",
+                 "Viewpoint { position 0 0 10 nearDistance 1 farDistance 100 }\n"):
+        for name, value, write, expected in cases:
+            suite.close(f"{name}, {view.split(' ')[0]}", suite.middle(
+                scene(view, NO_HEADLIGHT, tall, first(value, write)), "--step", 0.02), expected, 5e-3)
     inside = at(0, two_sided(VEIL))
-    suite.close("around a square", suite.middle(front_scene(data, inside, slope)),
-                layers(matter(0.25), BLUE, matter(0.75)))
-    eye = "Viewpoint { position 0 0 10 }\n"
-    for near in ("", "nearDistance 1 farDistance 100"):
-        suite.close(f"perspective {near}", suite.middle(scene(
-            eye.replace("10", "10 " + near), NO_HEADLIGHT, data, slope)), matter(1))
-    two = volume(constant(VALUE), fields="writeDepth TRUE", effects=effect(LAYER, BEFORE))
-    other = "Transform { translation 0 0 .5 scale 1 1 4 children [ %s ] }\n" % CUBE
-    orange = premultiplied((1, 0.5, 0), opacity(VALUE / 255, 1, 1))
-    suite.close("where a volume that is cast apart ends, the next one does", suite.middle(
-        front_scene(other, two)), layers(matter(0.75), orange), 1e-3)
+    suite.close("around a square", suite.middle(front_scene(tall, first(VALUE, "TRUE"), inside)),
+                layers(matter(0.625), orange(0.5), BLUE, matter(0.125), orange(0.5)), 1e-4)
 
 
 suite.run()
