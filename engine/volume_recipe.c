@@ -172,8 +172,16 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         plr_recipe_define(&view->kitchen, recipe, defines[i].name, defines[i].value);
 }
 
+/* Transfer functions of authors may have physical keys, too: they know the volume's voxels. */
+static void add_authors(plr_view *view, plr_recipe *recipe, size_t index, size_t attached) {
+    const plr_volume_pass *pass = &view->volumes;
+    size_t first = recipe->bindings.count;
+    plr_recipe_author_list(&view->kitchen, recipe, pass->leaves[index]->node, attached, index);
+    for (size_t i = first; i < recipe->bindings.count; i++)
+        recipe->bindings.items[i].grid = pass->volumes[index].grid;
+}
+
 void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags) {
-    plr_volume_pass *pass = &view->volumes;
     plr_recipe *recipe = &cast->pass.recipe;
     plr_kitchen *k = &view->kitchen;
     *recipe = (plr_recipe){.base = *plr_catalog_units(k->catalog, "volume/raycaster"),
@@ -190,8 +198,7 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
                        (plr_binding){.volume = PLR_NO_EFFECT}, 0, NULL, 0);
     plr_recipe_attached_authors(&view->kitchen, recipe, "X3DLightNode");
     for (size_t i = 0; i < cast->count; i++)
-        plr_recipe_author_list(k, recipe, pass->leaves[cast->members[i]]->node, attached[i],
-                               cast->members[i]);
+        add_authors(view, recipe, cast->members[i], attached[i]);
     add_group_effects(view, cast, attached);
     plr_recipe_define(k, recipe, "SKIPS", plr_cast_skips(view, cast, early_end));
 }

@@ -228,6 +228,18 @@ def legend_window():
 
 
 @suite.case
+def legend_physical():
+    "a function with physical keys is the volume's own"
+    volume = """voxels PixelTexture3D { image 1 1 1 1 0 } valueRange -1 3 dimensions 0.01 0.01 0.01"""
+    fields = """initializeOnly SFNode transferFunction TransferFunction {
+        physical TRUE key [ -1 1 3 ] keyValue [ 1 0 0 0, 0 1 0 0.1, 0 0 1 1 ] }
+        inputOutput SFVec2f range -1 3 inputOutput SFVec4f place 0.1 0.1 0.1 0.5"""
+    picture = draw(scene(PARALLEL, effect("color-legend.glsl", fields), volume), "color-legend.glsl")
+    suite.close("a quarter up", picture.at(20, HEIGHT - 1 - 12 - 15), (1 - 31 / 60, 31 / 60, 0, 1), 5e-3)
+    suite.close("three quarters up", picture.at(20, HEIGHT - 1 - 12 - 45), (0, 1 - 31 / 60, 31 / 60, 1), 5e-3)
+
+
+@suite.case
 def overlays_together():
     "three overlays with fonts of their own; they lie over the volume"
     effects = (effect("scale-bar.glsl", "inputOutput SFVec2f place 0.4 0.5") + effect("orientation-letters.glsl") +
