@@ -67,15 +67,17 @@ def size_of(path):
 
 
 def draw(program, path, backend, folders, target, said=None):
-    """The exit status, and what was said if it failed."""
+    """The exit status, what was complained of, and whether the scene was read as one of 2005."""
     words = [program, "render", path, "-o", target, "--size", size_of(path), "--backend", backend, "--no-cache"]
     for folder in filter(os.path.isdir, folders):
         words += ["--allow", folder]
     done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, timeout=240, check=False)
-    problems = [line for line in done.stderr.decode(errors="replace").splitlines()
+    lines = done.stderr.decode(errors="replace").splitlines()
+    problems = [line for line in lines
                 if ": info: " not in line and not line.startswith(" ") and not (said and line.endswith(said))]
-    return done.returncode, "\n".join(problems)
+    old = any("proposal of 2005" in line and line.endswith("[dialect]") for line in lines)
+    return done.returncode, "\n".join(problems), old
 
 
 def difference(a, b):
@@ -117,12 +119,13 @@ def example(program, examples, scans, folder, path):
     backends = ("egl",) if path.startswith("volumes/") else ("egl", "osmesa")
     pictures = {b: os.path.join(folder, f"{stem}.{b}.png") for b in backends}
     for backend, target in pictures.items():
-        status, problems = draw(program, os.path.join(examples, path), backend, [scans, os.path.join(examples, "data")],
-                                target, SAID.get(path))
+        status, problems, old = draw(program, os.path.join(examples, path), backend, [scans, os.path.join(examples, "data")],
+                                     target, SAID.get(path))
         check(status == 0 and not problems, f"{path}: {backend} draws it, nothing to complain of",
               f"exit status {status}", problems)
         if status == 3:
             return None
+        check(old == ("-2005." in path), f"{path}: read in the dialect that its name says")
     if "osmesa" in pictures:
         compare(pictures["egl"], pictures["osmesa"], BACKENDS, f"{path}: both backends draw the same")
     check(has_content(pictures["egl"]), f"{path}: something is seen")
@@ -144,6 +147,25 @@ def begins_with_comment(path):
     return rest[0].lstrip().startswith(("#", "<!--"))
 
 
+def volume_nodes():
+    """The names of the nodes of Volume Rendering, but those that other browsers added."""
+    with open(os.path.join(HERE, "..", "..", "x3d", "nodes.def"), encoding="utf-8") as file:
+        nodes = re.findall(r'^NODE\((\w+), "VolumeRendering", (.*)\)$', file.read(), re.M)
+    return [name for name, rest in nodes if "STANDARD" in rest or "DIALECT_2005" in rest]
+
+
+def covers(examples):
+    """Every node and style of Volume Rendering has a scene."""
+    folder, text = os.path.join(examples, "volumes"), ""
+    for name in os.listdir(folder):
+        if name.endswith((".x3d", ".x3dv")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                text += "\n".join(line for line in file if not line.startswith("#"))
+    nodes = volume_nodes()
+    missing = [name for name in nodes if not re.search(rf"\b{name}\b", text)]
+    check(len(nodes) >= 16 and not missing, "every node of Volume Rendering has a scene", nodes, missing)
+
+
 def main():
     program, examples, scans = sys.argv[1:4]
     wanted = sys.argv[4:]
@@ -152,6 +174,7 @@ def main():
         readme = file.read()
     check(len(everything) >= 10 and sum(p.endswith(".x3d") for p in everything) >= 5,
           "at least ten examples, at least five in XML", everything)
+    covers(examples)
     pictures = {}
     with tempfile.TemporaryDirectory(prefix="plugray-gallery-") as folder:
         for path in everything:
