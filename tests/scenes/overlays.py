@@ -198,6 +198,33 @@ def orientation_oblique():
     suite.equal("AR on top", [y < 20 for _, y in where(picture, "AR")], [True])
 
 
+class Half:
+    """Every other pixel of a picture."""
+
+    def __init__(self, picture, x, y):
+        self.picture, self.x, self.y = picture, x, y
+        self.width, self.height = (picture.width - x) // 2, (picture.height - y) // 2
+
+    def at(self, x, y):
+        return self.picture.at(2 * x + self.x, 2 * y + self.y)
+
+
+@suite.case
+def orientation_cube():
+    "a cube turns with the volume; the letter of its face says from where it is seen"
+    half = math.pi / 2
+    views = [("A", "0 1 0", f"0 0.70710678 0.70710678 {math.pi}", ""), ("P", "0 -1 0", f"1 0 0 {half}", ""),
+             ("S", "0 0 1", "0 0 1 0", ""), ("I", "0 0 -1", f"0 1 0 {math.pi}", ""),
+             ("R", "1 0 0", f"0.57735027 0.57735027 0.57735027 {2 * math.pi / 3}", ""),
+             ("L", "1 0 0", f"0.57735027 0.57735027 0.57735027 {2 * math.pi / 3}", "scale -1 1 1")]
+    for letter, place, turn, around in views:
+        view = f"OrthoViewpoint {{ position {place} orientation {turn} fieldOfView [ -0.08 -0.06 0.08 0.06 ] }}"
+        fields = "inputOutput SFFloat size 0.1 inputOutput SFVec2f place 0.8 0.2"  # two pixels a dot
+        picture = draw(scene(view, effect("orientation-cube.glsl", fields), BODY, around), "orientation-cube.glsl")
+        found = {each for each in "RLAPSI" for x in (0, 1) for y in (0, 1) if where(Half(picture, x, y), each)}
+        suite.equal(f"{letter}{' in a mirror' if around else ''}", found, {letter})
+
+
 FUNCTION = """initializeOnly SFNode transferFunction TransferFunction {
     key [ 0 0.5 1 ] keyValue [ 1 0 0 0, 0 1 0 0.1, 0 0 1 1 ] }"""
 
