@@ -131,8 +131,8 @@ static void move_parts(plr_view *view) {
 static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix *eye_to_world) {
     plr_flat flat;
     plr_flatten(arena, view->scene, eye_to_world, &flat, NULL);
-    if (!same_flats(&view->flat, &flat) || !has_extent(&flat.volumes) ||
-        view->surface_count != view->flat.shapes.count)
+    if (!same_flats(&view->flat, &flat) || !has_extent(&view->flat.volumes) ||
+        !has_extent(&flat.volumes) || view->surface_count != view->flat.shapes.count)
         return false;
     move_flat(&view->flat, &flat);
     move_parts(view);

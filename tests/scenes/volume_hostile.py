@@ -3,9 +3,10 @@
 message where something is wrong."""
 
 import math
+import os
 
-from harness import CaseError, Suite, opacity, premultiplied
-from scenes import constant, effect, front_scene, scene, volume, voxels
+from harness import CaseError, Picture, Suite
+from scenes import constant, front_scene, volume, voxels
 
 suite = Suite()
 
@@ -71,6 +72,29 @@ def sizes():
             got, result = draw(front_scene(f"Transform {{ {fields} children [ {box} ] }}"), status=1)
             suite.equal(f"{size:g} {fields}", (got[0], [m[3] for m in result.with_code("bad-volume")]),
                         ((0, 0, 0, 0), ["error"]))
+
+
+def film(text, count, fps=1):
+    """The middle pixel of each picture of a film."""
+    result = suite.render(text, "--frames", count, "--fps", fps, "-o", "film.npy", size="1x1", status=None, timeout=60)
+    names = sorted(name for name in os.listdir(result.folder) if name.endswith(".npy"))
+    return [Picture(os.path.join(result.folder, name)).at(0, 0) for name in names]
+
+
+def alternating(interpolator, first, second, route):
+    """`first` and `second`, two seconds each, again and again."""
+    return (f"DEF T TimeSensor {{ loop TRUE cycleInterval 4 }}\nDEF I {interpolator} {{ key [ 0 .5 .5 1 ] keyValue "
+            f"[ {first} {first} {second} {second} ] }}\n"
+            f"ROUTE T.fraction_changed TO I.set_fraction ROUTE I.value_changed TO {route}\n")
+
+
+@suite.case
+def without_extent_for_a_while():
+    "a volume that is squeezed to nothing comes back"
+    for nothing in ("1 0 1", "1e-30 1e-30 1e-30"):
+        got = film(front_scene(f"DEF G Transform {{ children [ {volume(DATA)} ] }}\n",
+                               alternating("PositionInterpolator", "1 1 1", nothing, "G.scale")), 8)
+        suite.equal(nothing, [pixel[3] > 0.5 for pixel in got[1::2]], [True, False, True, False])
 
 
 suite.run()
