@@ -33,10 +33,20 @@ const int MOST_EVENTS = 4096; /* in one step */
 #if SKIPS
 const int LOOK_AHEAD = 32; /* steps, one a bit */
 #if MIXES
-vec2 ahead_ways[LOOK_AHEAD]; /* the middles of the steps ahead, and their lengths */
 vec4 ahead_sums[LOOK_AHEAD]; /* of those that something was found in, see VolumeMix */
 uint ahead_mixed;
 uint ahead_opaque;
+#endif
+
+#if MIXES
+/* The steps ahead lie in a few pieces of parts of the ray, see step_way. */
+const int PIECES = 4;
+float piece_t[PIECES];
+float piece_next[PIECES];
+float piece_length[PIECES];
+int piece_steps[PIECES];
+int piece_first[PIECES]; /* of the steps ahead */
+int piece_shift[PIECES]; /* from the number of a step ahead to that in its part */
 #endif
 
 int lowest_bit(uint bits) {
@@ -128,6 +138,23 @@ vec2 step_way(int i, int steps, float t, float t_next, float step_length) {
 }
 #endif
 
+#if MIXES && SKIPS
+/* The same of step k of those ahead. */
+vec2 ahead_way(int k) {
+    float t = piece_t[0], t_next = piece_next[0], step_length = piece_length[0];
+    int steps = piece_steps[0], shift = piece_shift[0];
+    for (int piece = 1; piece < PIECES; piece++)
+        if (k >= piece_first[piece]) {
+            t = piece_t[piece];
+            t_next = piece_next[piece];
+            step_length = piece_length[piece];
+            steps = piece_steps[piece];
+            shift = piece_shift[piece];
+        }
+    return step_way(k + shift, steps, t, t_next, step_length);
+}
+#endif
+
 void main() {
     /* the ray through the pixel's centre, from the eye or, in parallel projection, from its plane */
     vec2 ndc = (gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0;
@@ -177,8 +204,8 @@ void main() {
     float step_length = NOWHERE;
     while (t < NOWHERE && !ended) {
         int count = 0;
-        while (count < LOOK_AHEAD && t < NOWHERE) {
-            if (i == steps) { /* from one entry or exit to the next: steps never straddle one */
+        for (int piece = 0; piece < PIECES; piece++) {
+            if (i == steps && t < NOWHERE) { /* from one entry or exit to the next: steps never straddle one */
                 t = t_next;
                 t_next = NOWHERE;
                 step_length = NOWHERE;
@@ -188,28 +215,32 @@ void main() {
                 if (t_next >= NOWHERE)
                     t = NOWHERE;
             }
-            if (t < NOWHERE) {
-                vec2 way = step_way(i, steps, t, t_next, step_length);
-                ahead_ways[count] = vec2(way.x + 0.5 * way.y, way.y);
-                /* PLUG: volume_plan (count, ahead_ways[count].x) */
-                count++;
-                i++;
-            }
+            piece_t[piece] = t;
+            piece_next[piece] = t_next;
+            piece_length[piece] = step_length;
+            piece_steps[piece] = steps;
+            piece_first[piece] = count;
+            piece_shift[piece] = i - count;
+            int taken = t < NOWHERE ? min(steps - i, LOOK_AHEAD - count) : 0;
+            /* PLUG: volume_plan (count, taken, t) */
+            count += taken;
+            i += taken;
         }
         ahead_mixed = 0u;
         ahead_opaque = 0u;
-        /* PLUG: volume_mix_ahead (count, origin_eye, direction_eye) */
+        /* PLUG: volume_mix_ahead (origin_eye, direction_eye) */
         while (ahead_mixed != 0u) {
             int k = lowest_bit(ahead_mixed);
             ahead_mixed &= ahead_mixed - 1u;
-            float t_middle = ahead_ways[k].x;
+            vec2 way = ahead_way(k);
+            float t_middle = way.x + 0.5 * way.y;
             VolumeSample s;
             vec4 color = volume_mix_color(VolumeMix(ahead_sums[k], (ahead_opaque >> uint(k) & 1u) != 0u));
 #if READS(position_eye)
             s.position_eye = origin_eye + t_middle * direction_eye;
 #endif
 #if READS(step_length)
-            s.step_length = ahead_ways[k].y;
+            s.step_length = way.y;
 #endif
 #if READS(volume)
             s.volume = -1;

@@ -28,32 +28,33 @@ bool is_visible(const in float t) {
 int ahead_start; /* which of the steps ahead are in the volume */
 int ahead_end;
 
-/* Step k of those ahead has its middle at t. */
-void PLUG_volume_plan(const in int k, const in float t) {
-    if (k == 0)
+/* The next steps ahead, `count` of them behind `first`, lie in a part of the ray that begins at t. */
+void PLUG_volume_plan(const in int first, const in int count, const in float t) {
+    if (first == 0)
         ahead_start = ahead_end = 0;
-    if (t < enter)
-        ahead_start = k + 1;
-    if (t < leave)
-        ahead_end = k + 1;
+    if (enter <= t && t < leave) {
+        if (ahead_end == 0)
+            ahead_start = first;
+        ahead_end = first + count;
+    }
 }
 
-/* Mixes what can be seen of this volume into the steps ahead, of which there are `count`. */
-void PLUG_volume_mix_ahead(const in int count, const in vec3 origin_eye,
-                           const in vec3 direction_eye) {
+/* Mixes what can be seen of this volume into the steps ahead. */
+void PLUG_volume_mix_ahead(const in vec3 origin_eye, const in vec3 direction_eye) {
     uint visible = 0u;
-    int end = min(ahead_end, count);
-    for (int k = ahead_start; k < end; k++)
-        if (is_visible(ahead_ways[k].x))
+    for (int k = ahead_start; k < ahead_end; k++) {
+        vec2 way = ahead_way(k);
+        if (is_visible(way.x + 0.5 * way.y))
             visible |= 1u << uint(k);
+    }
     while (visible != 0u) {
         int k = lowest_bit(visible);
         uint bit = 1u << uint(k);
         visible ^= bit;
-        vec2 way = ahead_ways[k];
+        vec2 way = ahead_way(k);
         vec4 color;
         VolumeSample s;
-        step_color(color, s, way.x, way.y, origin_eye, direction_eye);
+        step_color(color, s, way.x + 0.5 * way.y, way.y, origin_eye, direction_eye);
         VolumeMix mixed = VolumeMix(vec4(0.0), false);
         if ((ahead_mixed & bit) != 0u)
             mixed = VolumeMix(ahead_sums[k], (ahead_opaque & bit) != 0u);

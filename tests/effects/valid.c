@@ -627,7 +627,7 @@ static const recipe recipes[] = {
       {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
       {.path = "volume/Composite"}},
      DEFINES(two_skipping),
-     .present = "lowest_bit volume_visible VolumeMix ahead_sums"},
+     .present = "lowest_bit volume_visible VolumeMix ahead_sums piece_t"},
     {"one lit volume",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},
