@@ -61,7 +61,8 @@ size_t plr_program_fetches(const plr_program *program, plr_fetch_info *fetches, 
     const char *text = plr_program_text(program, PLR_FRAGMENT, NULL);
     size_t rows = 0;
     if (text && plr_glsl_fetches(text, PLR_FRAGMENT, add_fetch, &list) && !list.no_memory) {
-        qsort(list.items, list.count, sizeof *list.items, compare);
+        if (list.count)
+            qsort(list.items, list.count, sizeof *list.items, compare);
         for (size_t i = 0, end; i < list.count; i = end, rows++) {
             for (end = i + 1; end < list.count && !compare(&list.items[i], &list.items[end]);)
                 end++;

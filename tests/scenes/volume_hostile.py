@@ -6,7 +6,7 @@ import math
 import os
 
 from harness import CaseError, Picture, Suite
-from scenes import constant, front_scene, volume, voxels
+from scenes import constant, front_scene, scene, volume, voxels
 
 suite = Suite()
 
@@ -95,6 +95,46 @@ def without_extent_for_a_while():
         got = film(front_scene(f"DEF G Transform {{ children [ {volume(DATA)} ] }}\n",
                                alternating("PositionInterpolator", "1 1 1", nothing, "G.scale")), 8)
         suite.equal(nothing, [pixel[3] > 0.5 for pixel in got[1::2]], [True, False, True, False])
+
+
+EVERY_STYLE = (
+    "OpacityMapVolumeStyle { }", "BoundaryEnhancementVolumeStyle { }", "CartoonVolumeStyle { }",
+    "EdgeEnhancementVolumeStyle { }", "SilhouetteEnhancementVolumeStyle { }", "ToneMappedVolumeStyle { }",
+    "DEF LIT ShadedVolumeStyle { lighting TRUE shadows TRUE }", "StippleVolumeStyle { }", "ISOSurfaceVolumeStyle { lighting TRUE }",
+    "ComposedVolumeStyle { }", "BlendedVolumeStyle { }", f"BlendedVolumeStyle {{ voxels {DATA} renderStyle USE LIT }}")
+LABELS = voxels(1, (2, 2, 2), (0, 3, 6, 8, 9, 10, 11, 12))
+
+
+@suite.case
+def every_style_inside():
+    "every style in segments, surfaces and a list, with shadows and without light: numbers and no message"
+    head = "OrthoViewpoint { position 0 0 10 fieldOfView -1 -1 1 1 }\nDirectionalLight { direction -1 -1 -1 }\n"
+    styles = " ".join(EVERY_STYLE)
+    for name, text in (
+        ("segments", f"SegmentedVolumeData {{ voxels {TWO.replace('1 1 1 2 255 0', '1 2 2 2 255 0 9 80 70 60 50 40')} "
+                     f"segmentIdentifiers {LABELS} renderStyle [ {styles} ] }}\n"),
+        ("surfaces", f"IsoSurfaceVolumeData {{ voxels {TWO} surfaceValues [ .1 .2 .3 .4 .5 .6 .7 .8 .9 ] renderStyle [ {styles} ] }}\n"),
+        ("a list, in the dialect of 2005", volume(TWO, f"ComposedVolumeStyle {{ renderStyle [ {styles} ] }}")),
+    ):
+        _, result = draw(scene(head, text))
+        suite.equal(name, [m[4] for m in result.messages() if "no value of its own" not in m[4]], [])
+
+
+@suite.case
+def other_commands():
+    "what the other commands say of volumes that hold nothing, or one thing thrice"
+    data = f"DEF D {DATA}"
+    text = front_scene(
+        "VolumeData { renderStyle NULL voxels NULL }\n",
+        f"DEF A VolumeData {{ writeDepth TRUE voxels {data} renderStyle DEF B BlendedVolumeStyle {{ voxels USE D "
+        "renderStyle DEF S ShadedVolumeStyle { lighting TRUE shadows TRUE } } }\nUSE A\n",
+        "Transform { translation .3 0 0 children [ USE A USE A ] }\n",
+        "SegmentedVolumeData { voxels USE D segmentIdentifiers USE D renderStyle [ NULL USE B USE S USE B ] }\n",
+        "IsoSurfaceVolumeData { voxels USE D gradients USE D renderStyle [ ] }\n")
+    for command in ("check", "info", "plugs"):
+        result = suite.command(command, "scene.x3dv", files={"scene.x3dv": text}, status=0)
+        suite.check(command, "runtime error" not in result.errors, result.errors)
+    suite.command("dump", "scene.x3dv", "-d", "programs", files={"scene.x3dv": text}, status=0)
 
 
 suite.run()
