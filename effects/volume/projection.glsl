@@ -69,6 +69,10 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     event_t = NOWHERE;
     if (!(enter <= leave))
         return;
+    if (leave == 0.0) { /* the eye is on the box and looks away from it */
+        leave = -1.0;
+        return;
+    }
     int count = max(step_count(leave - enter, sampleDistance / ray_speed), 1);
     float span = (leave - enter) / float(count);
 #if defined(renderStyle_type_AVERAGE)

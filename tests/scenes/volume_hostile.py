@@ -137,4 +137,13 @@ def other_commands():
     suite.command("dump", "scene.x3dv", "-d", "programs", files={"scene.x3dv": text}, status=0)
 
 
+@suite.case
+def eye_on_a_corner():
+    "a projection that only the eye itself touches is not there"
+    box = volume(DATA, "ProjectionVolumeStyle { }")
+    for place, want in (("0.5 0.5 0.5", [False, True]), ("0.5 0 -0.5", [False, False]), ("0 0 0.5", [True, True])):
+        got, _ = draw(scene(f"Viewpoint {{ position {place} }}\n", box), pixels=((12, 4), (4, 12)))
+        suite.equal(place, [pixel[3] > 0.5 for pixel in got], want)
+
+
 suite.run()
