@@ -23,10 +23,13 @@ static bool is_any_enabled(const plr_node *node, size_t *left) {
     if (!plr_node_is(node, "ComposedVolumeStyle"))
         return true;
     const plr_field *styles = plr_node_field(node, "renderStyle");
-    for (size_t i = 0; styles && i < styles->count; i++)
+    bool empty = true; /* then voxels stay as they are */
+    for (size_t i = 0; styles && i < styles->count; i++) {
         if (styles->value.nodes[i] && is_any_enabled(styles->value.nodes[i], left))
             return true;
-    return !styles || !styles->count;
+        empty = empty && !styles->value.nodes[i];
+    }
+    return empty;
 }
 
 /* Whether anything is drawn with this style; NULL is the default style. */

@@ -146,4 +146,16 @@ def eye_on_a_corner():
         suite.equal(place, [pixel[3] > 0.5 for pixel in got], want)
 
 
+@suite.case
+def null_members():
+    "a list of NULL alone is an empty one, which changes nothing"
+    want = draw(front_scene(volume(DATA, "ComposedVolumeStyle { }")))[0][0]
+    suite.check("an empty list draws", want[3] > 0.5, want)
+    for style in ("ComposedVolumeStyle { renderStyle [ NULL NULL ] }",
+                  "ComposedVolumeStyle { renderStyle ComposedVolumeStyle { renderStyle [ NULL ] } }"):
+        suite.close(style, draw(front_scene(volume(DATA, style)))[0][0], want)
+    off = "ComposedVolumeStyle { renderStyle [ NULL CartoonVolumeStyle { enabled FALSE } ] }"
+    suite.close(off, draw(front_scene(volume(DATA, off)))[0][0], (0, 0, 0, 0))
+
+
 suite.run()
