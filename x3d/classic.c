@@ -189,8 +189,12 @@ static void read_node_list(classic *c, plr_node *node, size_t index, x3d_open *o
                 skip_token(c);
             continue;
         }
-        if (accept_word(c, "NULL"))
+        plr_place nothing = x3d_lexer_place(&c->lexer);
+        if (accept_word(c, "NULL")) {
+            x3d_report(c->scene, PLR_CODE_BAD_NODE, nothing,
+                       "a list of nodes holds no NULL; it is skipped, what follows moves up");
             continue;
+        }
         plr_node *child = read_node_or_use(c, open);
         if (child)
             x3d_add_child(c->build, node, index, child, place);

@@ -129,7 +129,7 @@ def other_commands():
         f"DEF A VolumeData {{ writeDepth TRUE voxels {data} renderStyle DEF B BlendedVolumeStyle {{ voxels USE D "
         "renderStyle DEF S ShadedVolumeStyle { lighting TRUE shadows TRUE } } }\nUSE A\n",
         "Transform { translation .3 0 0 children [ USE A USE A ] }\n",
-        "SegmentedVolumeData { voxels USE D segmentIdentifiers USE D renderStyle [ NULL USE B USE S USE B ] }\n",
+        "SegmentedVolumeData { voxels USE D segmentIdentifiers USE D renderStyle [ USE B USE S USE B ] }\n",
         "IsoSurfaceVolumeData { voxels USE D gradients USE D renderStyle [ ] }\n")
     for command in ("check", "info", "plugs"):
         result = suite.command(command, "scene.x3dv", files={"scene.x3dv": text}, status=0)
@@ -148,12 +148,14 @@ def eye_on_a_corner():
 
 @suite.case
 def null_members():
-    "a list of NULL alone is an empty one, which changes nothing"
+    "NULL in a list is skipped, with a warning; an empty list changes nothing"
     want = draw(front_scene(volume(DATA, "ComposedVolumeStyle { }")))[0][0]
     suite.check("an empty list draws", want[3] > 0.5, want)
     for style in ("ComposedVolumeStyle { renderStyle [ NULL NULL ] }",
                   "ComposedVolumeStyle { renderStyle ComposedVolumeStyle { renderStyle [ NULL ] } }"):
-        suite.close(style, draw(front_scene(volume(DATA, style)))[0][0], want)
+        got, result = draw(front_scene(volume(DATA, style)))
+        suite.close(style, got[0], want)
+        suite.equal("a warning", {m[3] for m in result.with_code("bad-node")}, {"warning"})
     off = "ComposedVolumeStyle { renderStyle [ NULL CartoonVolumeStyle { enabled FALSE } ] }"
     suite.close(off, draw(front_scene(volume(DATA, off)))[0][0], (0, 0, 0, 0))
 
