@@ -289,7 +289,9 @@ void main() {
             uint visible = 0u;
             for (; ahead < steps && ahead < first + LOOK_AHEAD; ahead++) {
                 vec2 way = step_way(ahead, steps, t, t_next, step_length);
-                /* PLUG: volume_look_ahead (visible, ahead - first, way.x + 0.5 * way.y) */
+                int bit = ahead - first;
+                float t_middle = way.x + 0.5 * way.y;
+                /* PLUG: volume_look_ahead (visible, bit, t_middle) */
             }
             while (visible != 0u) {
                 int i = first + lowest_bit(visible);

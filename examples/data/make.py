@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Computes the small volumes of the examples: 8-bit NRRD files, compressed. Run without arguments; the
-files that lie here are what it writes."""
+files that lie in the folders `data` of the examples are what it writes. A scene reads its own folder alone, so
+that some lie in several."""
 
 import gzip
 import math
@@ -16,7 +17,11 @@ def byte(value):
     return round(255 * min(max(value, 0.0), 1.0))
 
 
-def write(name, comment, size, value, components=1, low=(-1, -1, -1), high=(1, 1, 1)):
+VOLUMES = ("volumes/data",)
+ALL = ("data", "volumes/data", "volumes/compositions/data")
+
+
+def write(name, comment, size, value, components=1, folders=VOLUMES, low=(-1, -1, -1), high=(1, 1, 1)):
     """`value` of x, y, z from `low` to `high` gives a number from 0 to 1, or several."""
     data = bytearray()
     xs, ys, zs = ([a + (b - a) * (2 * i + 1) / (2 * size) for i in range(size)] for a, b in zip(low, high))
@@ -33,8 +38,9 @@ def write(name, comment, size, value, components=1, low=(-1, -1, -1), high=(1, 1
     else:
         shape = f"dimension: 3\nsizes: {size} {size} {size}\n"
     header = f"NRRD0004\n# {comment}\ntype: uint8\n{shape}encoding: gzip\n\n"
-    with open(os.path.join(HERE, name), "wb") as file:
-        file.write(header.encode() + gzip.compress(bytes(data), 9, mtime=0))
+    for folder in folders:
+        with open(os.path.join(HERE, "..", folder, name), "wb") as file:
+            file.write(header.encode() + gzip.compress(bytes(data), 9, mtime=0))
 
 
 def orbital(x, y, z):
@@ -108,14 +114,14 @@ def octants():
     """The knot in eight parts, x changing fastest, and the whole in the size of one."""
     for i in range(8):
         low = [(i >> axis & 1) - 1 for axis in range(3)]
-        write(f"knot-{i}.nrrd", f"an eighth of the knot, finer: {low}", 24, knot, 1, low, [a + 1 for a in low])
+        write(f"knot-{i}.nrrd", f"an eighth of the knot, finer: {low}", 24, knot, 1, VOLUMES, low, [a + 1 for a in low])
     write("knot-coarse.nrrd", "the knot, coarse", 12, knot)
 
 
 if __name__ == "__main__":
-    write("orbital.nrrd", "hydrogen, 4f, m = 2: 1/2 is zero", 40, orbital)
-    write("knot.nrrd", "a tube around a trefoil knot", 40, knot)
-    write("grid.nrrd", "nothing: a grid for volumes that an effect computes", 64, empty)
+    write("orbital.nrrd", "hydrogen, 4f, m = 2: 1/2 is zero", 40, orbital, folders=ALL)
+    write("knot.nrrd", "a tube around a trefoil knot", 40, knot, folders=ALL)
+    write("grid.nrrd", "nothing: a grid for volumes that an effect computes", 64, empty, folders=("data",))
     write("negative.nrrd", "a knot: 1 is nothing", 40, negative)
     write("negative-half.nrrd", "the same, half the size", 20, negative)
     write("turns.nrrd", "a knot, and how far along it", 40, turns, 2)

@@ -4,7 +4,7 @@
 #include <glslang/Public/resource_limits_c.h>
 
 enum {
-    MOST = 64
+    MOST = PLR_MOST_ATTACHED + 8
 };
 
 static struct {

@@ -215,7 +215,8 @@ result, text = info(scene("v.nrrd", "OpacityMapVolumeStyle { }"))
 check_equal(program["gradients"], 0, "no gradient where nobody asks")
 check_equal([e for m in ("normal_eye", "gradient") for e in program["members"][m]["read_by"]], [], "nobody reads one")
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's")
-check_equal({f["sampler"]: f["count"] for f in program["fetched"]}, {"voxels": 1, "transferFunction": 1}, "two fetches")
+check_equal({f["sampler"]: f["count"] for f in program["fetched"]}, 
+            {"voxels": 2, "plugray_TransferFunctions": 1}, "a look ahead, then the voxel and its function")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
 
 SHADED = """ComposedVolumeStyle { renderStyle [
@@ -228,7 +229,7 @@ check_equal([(e["effect"], e["place"]["line"], e["place"]["column"])
              for e in program["members"]["normal_eye"]["read_by"]], [("ShadedVolumeStyle", 6, 5)], "for whom")
 check("normal_eye (from the gradient) is read by ShadedVolumeStyle at scene.x3dv:6:5\n" in text, "in words", text)
 fetched = [f for f in program["fetched"] if f["sampler"] == "voxels"]
-check_equal(sum(f["count"] for f in fetched), 7, "six more fetches of the voxels")
+check_equal(sum(f["count"] for f in fetched), 8, "six more fetches of the voxels")
 check(all(f["for"]["effect"] == "VolumeData" and f["for"]["place"]["line"] == 3 for f in fetched), "for the volume",
       fetched)
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's, again")
