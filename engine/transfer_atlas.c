@@ -76,7 +76,7 @@ static void find_visible(const float *texels, uint32_t width, float visible[2]) 
         end--;
     bool any = first < end;
     visible[0] = !any ? INFINITY : first == 0 ? -INFINITY : (float)(first - 1) / (float)(width - 1);
-    visible[1] = end == width ? INFINITY : (float)end / (float)(width - 1);
+    visible[1] = !any || end == width ? INFINITY : (float)end / (float)(width - 1);
 }
 
 static void paste_place(const plr_atlas *atlas, plr_atlas_place *place, bool reversed, float *out) {
