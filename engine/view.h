@@ -28,9 +28,9 @@ typedef struct plr_cast {
     plr_pass pass;
     size_t *members; /* indices of volumes */
     size_t count;
-    double depth; /* of the nearest centre, in this frame */
+    double depth;             /* of the nearest centre, in this frame */
     double nearest, farthest; /* of its boxes */
-    bool divided; /* by translucent surfaces inside: it is drawn in parts */
+    bool divided;             /* by translucent surfaces inside: it is drawn in parts */
     bool writes_depth;
     bool drawn;               /* in this frame */
     bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
@@ -230,8 +230,8 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
 /* Clears colour and depth, then draws the background. `behind`: the colour where there is none. */
 void plr_background_draw(plr_view *view, const plr_background *background, const plr_frame *frame,
                          const float behind[4]);
-/* Draws one cast; depths say in which order (plr_volume_depths). One that picks writes what is seen:
- * where along the ray, volume, surface, 1; or zeros. */
+/* Draws one cast; depths say in which order (plr_volume_depths). One that picks writes what is
+ * seen: where along the ray, volume, surface, 1; or zeros. */
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame);
 /* Whether some translucent surface is inside one of its volumes; no GL. */
 bool plr_cast_is_divided(const plr_view *view, const plr_cast *cast);

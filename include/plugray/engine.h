@@ -70,9 +70,9 @@ typedef struct plr_view_desc {
     /* of volume nodes; 0: found out, 2005, or 1: final. It sets defaults of the scene's fields: of
      * views of one scene, the one that was made or updated last decides. */
     int dialect;
-    /* of one volume as a texture; 0: 4 GiB. A larger one, or one of more voxels a side than GL takes,
-     * is cast in bricks, which are uploaded anew for each picture; with segments, a projection or
-     * inside a BlendedVolumeStyle it is brought down by averaging, with a warning. */
+    /* of one volume as a texture; 0: 4 GiB. A larger one, or one of more voxels a side than GL
+     * takes, is cast in bricks, which are uploaded anew for each picture; with segments, a
+     * projection or inside a BlendedVolumeStyle it is brought down by averaging, with a warning. */
     size_t max_voxel_bytes;
     /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
     bool host_depths;

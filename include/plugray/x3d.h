@@ -187,8 +187,8 @@ PLR_API bool plr_scene_uses_2005(const plr_scene *scene, plr_place *where);
 /* Gives fields of volume nodes that the file leaves out the defaults of the proposal of 2005, or
  * those of the final standard, which they have at first. Fields that are given stay as they are. */
 PLR_API void plr_scene_set_2005(plr_scene *scene, bool proposal);
-/* A Shape, no part of the graph, that stands for bounding boxes: the white edges of a cube of side 1
- * around the origin. Made at the first call; NULL without memory. */
+/* A Shape, no part of the graph, that stands for bounding boxes: the white edges of a cube of side
+ * 1 around the origin. Made at the first call; NULL without memory. */
 PLR_API plr_node *plr_scene_box_edges(plr_scene *scene);
 /* One line of a file that the scene was read from (newline excluded), or NULL; for messages. */
 PLR_API const char *plr_scene_line(const plr_scene *scene, const char *file, uint32_t line,

@@ -150,8 +150,8 @@ static void print_percentiles(const volume_report *r) {
     }
     putchar('\n');
     for (uint32_t c = 0; c < r->volume.components; c++) {
-        snprintf(text, sizeof text, r->volume.components > 1 ? "component %u" : "", c + 1);
-        print_name(text);
+        snprintf(text, sizeof text, "component %u", c + 1);
+        print_name(r->volume.components > 1 ? text : "");
         for (int i = 0; i < PLR_PERCENTILE_COUNT; i++)
             printf("%s%9.5g", i ? " " : "", r->statistics[c].percentiles[i]);
         putchar('\n');
