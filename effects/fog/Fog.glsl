@@ -51,6 +51,12 @@ float fog_depth() {
 #endif
 }
 
+#if VOLUME
+void PLUG_volume_fog(inout vec4 sample_color) {
+    sample_color.rgb = mix(color, sample_color.rgb, fog_interpolant(fog_depth()));
+}
+#else
 void PLUG_fog_apply(inout vec4 fragment_color, const in vec3 normal_eye) {
     fragment_color.rgb = mix(color, fragment_color.rgb, fog_interpolant(fog_depth()));
 }
+#endif

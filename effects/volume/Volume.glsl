@@ -23,7 +23,7 @@ float leave;
 float whole_enter;
 #endif
 
-#if PLUG_USED(fog_apply)
+#if PLUG_USED(volume_fog)
 vec4 sample_place; /* where fog looks, in eye space */
 #endif
 
@@ -132,9 +132,9 @@ void style_sample(inout vec4 color, const in VolumeSample s) {
     /* PLUG: volume_shade (color, s) */
     color = clamped(color);
 #endif
-#if PLUG_USED(fog_apply)
+#if PLUG_USED(volume_fog)
     sample_place = vec4(s.position_eye, 1.0);
-    /* PLUG: fog_apply (color, vec3(0.0)) */
+    /* PLUG: volume_fog (color) */
     color = clamped(color);
 #endif
 }

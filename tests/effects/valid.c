@@ -379,7 +379,7 @@ static const plr_define given_fog[] = {{"HAS_FOG_COORD", "1"},
                                        {"COMPLETE", "0"},
                                        {"VOLUME", "0"}};
 static const plr_define complete_fog[] = {
-    {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "1"}};
+    {"HAS_FOG_COORD", "0"}, {"volumetric", "0"}, {"COMPLETE", "1"}, {"VOLUME", "0"}};
 static const plr_define on_surface[] = {{"SURFACE", "1"}};
 static const plr_define in_volume[] = {{"SURFACE", "0"}};
 static const plr_define top_image[] = {{"FACE", "4"}, {"HAS_IMAGE", "1"}};

@@ -4,7 +4,7 @@
 import math
 
 from harness import Suite, opacity, premultiplied
-from scenes import constant, front_scene, volume
+from scenes import constant, effect, front_scene, volume
 
 suite = Suite()
 
@@ -182,6 +182,17 @@ def paid_for():
     for word in ("fog_interpolant", "plane"):
         suite.check(f"{word} where it is asked for", word in full)
         suite.check(f"no {word} without", word not in bare)
+
+
+@suite.case
+def fog_of_authors():
+    "fog_apply is of surfaces: an author's function there does not reach volumes"
+    code = ("void PLUG_fog_apply(inout vec4 fragment_color, const in vec3 normal_eye)"
+            "{ fragment_color = vec4(0.0, 1.0, 0.0, 1.0); }")
+    plain = front_scene(volume(constant(102, (2, 2, 2))))
+    group = front_scene("Group { children [", effect(code), volume(constant(102, (2, 2, 2))), "] }")
+    suite.close("as without", suite.middle(group), suite.middle(plain), 0)
+    suite.equal("nothing is said", suite.render(group, "--probe", "8,8").messages(), [])
 
 
 suite.run()

@@ -81,7 +81,7 @@ def long_cells():
 
 def frames(count, folder):
     """Draws frames; how much memory that took, in KiB."""
-    arguments = [sys.argv[1], "render", "scene.x3dv", "--size", "4x4", "--no-cache", "-o", "frame%d.png",
+    arguments = [suite.program, "render", "scene.x3dv", "--size", "4x4", "--no-cache", "-o", "frame%d.png",
                  "--frames", str(count), "--fps", "10"]
     # AddressSanitizer keeps what was freed, up to a bound
     options = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=16"
