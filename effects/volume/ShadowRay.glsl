@@ -5,7 +5,6 @@
 
 uniform float sampleDistance;  /* own coordinates */
 uniform float referenceLength; /* an opacity means "after this length", own coordinates */
-uniform int volumeIndex;
 uniform vec3 cropMin = vec3(0.0);
 uniform vec3 cropMax = vec3(1.0);
 
@@ -33,25 +32,7 @@ float voxel_way() {
 
 void sample_at(out VolumeSample s, const in float t, const in float span) {
     vec3 position = ray_origin + t * ray_direction;
-    grid_sample(s, position);
-#if READS(position)
-    s.position = position;
-#endif
-#if READS(position_eye)
-    s.position_eye = ray_origin_eye + t * ray_direction_eye;
-#endif
-#if READS(step_length)
-    s.step_length = span * ray_speed;
-#endif
-#if READS(segment)
-    s.segment = segment_at(position);
-#endif
-#if READS(surface)
-    s.surface = -1;
-#endif
-#if READS(volume)
-    s.volume = volumeIndex;
-#endif
+    volume_sample_at(s, position, ray_origin_eye + t * ray_direction_eye, span * ray_speed);
     /* PLUG: volume_sample (s) */
 }
 

@@ -4,7 +4,6 @@
 
 uniform float sampleDistance;   /* own coordinates */
 uniform float referenceLength;  /* an opacity means "after this length", own coordinates */
-uniform int volumeIndex;
 uniform vec3 cropMin = vec3(0.0); /* of the box of texture coordinates */
 uniform vec3 cropMax = vec3(1.0);
 #if defined(BRICKED) && BRICKED
@@ -100,25 +99,7 @@ void PLUG_volume_part(inout float t, inout float t_next, inout float step_length
 void sample_at(out VolumeSample s, const in float t, const in float span, const in vec3 origin_eye,
                const in vec3 direction_eye) {
     vec3 position = ray_origin + t * ray_direction;
-    grid_sample(s, position);
-#if READS(position)
-    s.position = position;
-#endif
-#if READS(position_eye)
-    s.position_eye = origin_eye + t * direction_eye;
-#endif
-#if READS(step_length)
-    s.step_length = span * ray_speed;
-#endif
-#if READS(segment)
-    s.segment = segment_at(position);
-#endif
-#if READS(surface)
-    s.surface = -1;
-#endif
-#if READS(volume)
-    s.volume = volumeIndex;
-#endif
+    volume_sample_at(s, position, origin_eye + t * direction_eye, span * ray_speed);
     /* PLUG: volume_sample (s) */
 }
 

@@ -3,6 +3,7 @@
 
 uniform mat4 eyeToLocal; /* eye space -> the volume's own coordinates, the box centred at the origin */
 uniform vec3 dimensions;
+uniform int volumeIndex;
 uniform sampler3D voxels;
 #if defined(BRICKED) && BRICKED
 uniform vec3 voxelCount; /* of the whole, of which the texture is a brick */
@@ -90,5 +91,29 @@ void grid_sample(inout VolumeSample s, const in vec3 position) {
 #endif
 #if READS(normal_eye)
     s.normal_eye = normal_of_gradient(gradient, mat3(eyeToLocal));
+#endif
+}
+
+/* All that is known of a sample, before authors change it: `place` is where it is in eye space, `span` the length
+ * of its step in own coordinates. */
+void volume_sample_at(out VolumeSample s, const in vec3 position, const in vec3 place, const in float span) {
+    grid_sample(s, position);
+#if READS(position)
+    s.position = position;
+#endif
+#if READS(position_eye)
+    s.position_eye = place;
+#endif
+#if READS(step_length)
+    s.step_length = span;
+#endif
+#if READS(segment)
+    s.segment = segment_at(position);
+#endif
+#if READS(surface)
+    s.surface = -1;
+#endif
+#if READS(volume)
+    s.volume = volumeIndex;
 #endif
 }
