@@ -11,26 +11,13 @@ enum {
     MAX_DIGITS = 9
 };
 
-static bool read_time(const tool_arguments *arguments, double *time) {
-    const char *text = option_value(arguments, OPTION_TIME);
-    if (!text)
-        return true;
-    char *after;
-    *time = strtod(text, &after);
-    if (after > text && !*after && *time >= 0 && *time <= 1e9)
-        return true;
-    usage_error(arguments, "--time takes seconds from 0 to 1e9, not '%s'", text);
-    return false;
-}
-
 bool frames_read(const tool_arguments *arguments, frame_plan *plan) {
-    *plan = (frame_plan){.rate = 25};
+    *plan = (frame_plan){.start = plan->start, .rate = 25};
     if (option_value(arguments, OPTION_FPS) && !option_value(arguments, OPTION_FRAMES)) {
         usage_error(arguments, "--fps goes with --frames");
         return false;
     }
-    return read_time(arguments, &plan->start) &&
-           option_integer(arguments, OPTION_FRAMES, 1, MAX_FRAMES, &plan->count) &&
+    return option_integer(arguments, OPTION_FRAMES, 1, MAX_FRAMES, &plan->count) &&
            option_number(arguments, OPTION_FPS, 0, 1e6, &plan->rate);
 }
 

@@ -9,7 +9,7 @@ typedef struct frame_plan {
     long count;         /* 0: one picture, without a number */
 } frame_plan;
 
-/* Reads --time, --frames and --fps; false where they are wrong (said). */
+/* Reads --frames and --fps; keeps `start`; false where they are wrong (said). */
 bool frames_read(const tool_arguments *arguments, frame_plan *plan);
 /* The time of frame `index`, from 0. */
 double frames_time(const frame_plan *plan, long index);

@@ -11,24 +11,20 @@
 #include "tools/plugray/progress.h"
 #include "tools/plugray/scene.h"
 #include "tools/plugray/stats.h"
-
-enum {
-    MAX_SIDE = 16384
-};
+#include "tools/plugray/view_options.h"
 
 typedef struct render_job {
     const tool_arguments *arguments;
     const char *path; /* of the picture, or NULL */
+    view_options look;
     plr_draw_desc draw;
-    plr_backend backend;
     double step;
     frame_plan frames;
     long repeat; /* 0: one draw without a warm-up */
     int stats;   /* one of the below */
     bool draws;  /* else it only picks */
     tool_scene scene;
-    plr_context *context;
-    plr_engine *engine;
+    tool_machine machine;
     plr_view *view;
     plr_picture picture;
     plr_phase drawn; /* the median */
@@ -70,31 +66,6 @@ static bool check_pixels(const render_job *job, tool_option option, const char *
     return true;
 }
 
-static bool read_size(render_job *job) {
-    const char *size = option_value(job->arguments, OPTION_SIZE);
-    long pair[2] = {640, 480};
-    if (size && !read_pair(size, 'x', 1, MAX_SIDE, pair)) {
-        usage_error(job->arguments, "--size takes WxH in pixels from 1 to %d, not '%s'", MAX_SIDE,
-                    size);
-        return false;
-    }
-    job->draw.width = (int)pair[0];
-    job->draw.height = (int)pair[1];
-    return true;
-}
-
-static bool read_backend(render_job *job) {
-    const char *text = option_value(job->arguments, OPTION_BACKEND);
-    int index = text ? word_index(option_words(OPTION_BACKEND), text) : PLR_BACKEND_AUTO;
-    if (index < 0) {
-        usage_error(job->arguments, "--backend takes %s, not '%s'", option_words(OPTION_BACKEND),
-                    text);
-        return false;
-    }
-    job->backend = (plr_backend)index;
-    return true;
-}
-
 static bool read_outputs(render_job *job) {
     const tool_arguments *a = job->arguments;
     job->path = option_value(a, OPTION_PICTURE);
@@ -119,8 +90,12 @@ static bool read_outputs(render_job *job) {
 static bool read_options(render_job *job) {
     const tool_arguments *a = job->arguments;
     long samples = 1;
-    if (!read_outputs(job) || !read_size(job) || !read_backend(job) ||
-        !check_pixels(job, OPTION_PROBE, "--probe") || !check_pixels(job, OPTION_PICK, "--pick") ||
+    job->look = (view_options){.width = 640, .height = 480};
+    if (!read_outputs(job) || !view_options_read(a, &job->look))
+        return false;
+    job->draw = (plr_draw_desc){.width = job->look.width, .height = job->look.height};
+    job->frames.start = job->look.time;
+    if (!check_pixels(job, OPTION_PROBE, "--probe") || !check_pixels(job, OPTION_PICK, "--pick") ||
         !frames_read(a, &job->frames) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
         !option_integer(a, OPTION_SAMPLES, 1, 4096, &samples) ||
         !option_integer(a, OPTION_REPEAT, 1, 1000000, &job->repeat))
@@ -130,20 +105,6 @@ static bool read_options(render_job *job) {
 }
 
 /* ---- Drawing ---- */
-
-static int open_engine(render_job *job) {
-    char folder[4096];
-    bool cached = !option_value(job->arguments, OPTION_NO_CACHE) &&
-                  plr_engine_default_cache(folder, sizeof folder);
-    job->context = plr_context_create(job->backend, job->scene.diags);
-    if (!job->context)
-        return STATUS_MACHINE;
-    plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address,
-                            .user = job->context,
-                            .cache_folder = cached ? folder : NULL};
-    job->engine = plr_engine_create(&desc, job->scene.diags);
-    return job->engine ? STATUS_FINE : STATUS_MACHINE;
-}
 
 static int compare_times(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
@@ -258,11 +219,12 @@ static bool draw_frames(render_job *job) {
 /* Returns the status to end with where it is not the diagnostics that decide. */
 static int render(render_job *job) {
     progress("starting GL");
-    int status = open_engine(job);
+    int status = tool_machine_open(&job->machine, &job->look, job->scene.diags);
     if (status != STATUS_FINE)
         return status;
     progress("linking and loading");
-    job->view = plr_view_create(job->engine, job->scene.scene, &job->scene.view, job->scene.diags);
+    job->view =
+        plr_view_create(job->machine.engine, job->scene.scene, &job->scene.view, job->scene.diags);
     if (!job->view)
         return tool_view_failure(&job->scene);
     if (!draw_frames(job))
@@ -274,10 +236,7 @@ static int render(render_job *job) {
 static void close_job(render_job *job) {
     plr_picture_free(&job->picture);
     plr_view_destroy(&job->view);
-    if (job->engine)
-        plr_engine_destroy(&job->engine);
-    if (job->context)
-        plr_context_destroy(&job->context);
+    tool_machine_close(&job->machine);
     tool_scene_close(&job->scene);
 }
 
@@ -287,10 +246,8 @@ int command_render(const tool_arguments *arguments) {
         return STATUS_USAGE;
     int status = tool_scene_open(&job.scene, arguments, arguments->operands[0]);
     if (status == STATUS_FINE) {
-        job.scene.view.viewpoint = option_value(arguments, OPTION_VIEWPOINT);
+        view_options_apply(&job.look, &job.scene.view);
         job.scene.view.step = job.step;
-        job.scene.view.time = job.frames.start;
-        job.scene.view.aspect = (double)job.draw.width / job.draw.height;
         if (job.scene.scene)
             status = render(&job);
         int told = tool_scene_finish(&job.scene);
