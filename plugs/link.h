@@ -322,6 +322,8 @@ plr_binding *plr_declare_name(plr_linking *l, plr_node *node, const plr_name *na
 plr_action plr_resolve(plr_linking *l, plr_unit *unit, uint32_t local);
 const char *plr_binding_text(plr_linking *l, plr_binding *symbol, uint32_t *length);
 plr_binding *plr_binding_find(const plr_linking *l, const plr_scope *scope, uint32_t gid);
+/* What a plug function asks before it does anything (plr_effect.gate); NULL: nothing. */
+plr_binding *plr_gate_of(const plr_linking *l, const plr_node *node);
 /* Whether a token names no symbol: only a macro of its own scope replaces members and locals. */
 static inline bool plr_is_plain(const plr_unit *unit, const plr_token *token,
                                 const plr_binding *symbol) {

@@ -26,6 +26,14 @@ static bool is_effect(const plr_linking *l, const plr_scope *scope) {
     return scope->owner < l->effect_count;
 }
 
+plr_binding *plr_gate_of(const plr_linking *l, const plr_node *node) {
+    const plr_scope *scope = node->unit->scope;
+    const char *gate =
+        node->function && is_effect(l, scope) ? l->desc->effects[scope->owner].gate : NULL;
+    uint32_t gid = gate ? plr_gid_find(l, gate, strlen(gate)) : PLR_NONE;
+    return gid == PLR_NONE ? NULL : plr_binding_find(l, scope, gid);
+}
+
 /* ---- Declaring ---------------------------------------------------------------------------------
  */
 

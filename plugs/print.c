@@ -447,6 +447,15 @@ static uint32_t print_plug(plr_printer *p, uint32_t at) {
     return plug->end;
 }
 
+/* What a plug function of a gated effect begins with. */
+static void print_gate(plr_printer *p) {
+    uint32_t length;
+    const char *name = plr_binding_text(p->l, plr_gate_of(p->l, p->node), &length);
+    plr_print_own(
+        p, plr_arena_format(p->l->pass, "\n    if (!%.*s)\n        return;", (int)length, name));
+    p->broken = true;
+}
+
 /* ---- Ranges ------------------------------------------------------------------------------------
  */
 
@@ -475,6 +484,8 @@ void plr_put_tokens(plr_printer *p, uint32_t first, uint32_t end) {
             continue;
         } else {
             plr_copy_token(p, token);
+            if (i == p->body)
+                print_gate(p);
             i++;
             if (p->inside && token->kind == p->inside_of) {
                 plr_socket *socket = p->inside;
@@ -496,6 +507,8 @@ void plr_print_range(plr_printer *p, plr_node *node, uint32_t first, uint32_t en
     p->begin = p->end = p->last = 0;
     p->before = ';';
     p->inside = NULL;
+    p->body = node->item->kind == PLR_ITEM_FUNCTION && plr_gate_of(p->l, node) ? node->item->body
+                                                                               : PLR_NONE;
     p->closer_count = 0;
     plr_put_tokens(p, first, end);
     plr_flush(p);

@@ -41,6 +41,7 @@ typedef struct plr_printer {
     uint32_t last_token; /* the token before */
     plr_socket *inside;  /* a plug whose calls come after the next token of kind inside_of */
     uint8_t inside_of;
+    uint32_t body; /* the token behind which a gate is asked; PLR_NONE: none is */
     plr_closer closers[32];
     unsigned closer_count;
 } plr_printer;

@@ -180,12 +180,22 @@ static void reach_macro(plr_linking *l, plr_node *node) {
     reach_range(l, node, name + 1, node->item->end);
 }
 
+/* Plug functions of a gated effect name the gate, which their text does not (print.c). */
+static void reach_gate(plr_linking *l, plr_node *node) {
+    plr_binding *gate = plr_gate_of(l, node);
+    if (!gate)
+        return;
+    add_edge(l, node, gate, NULL);
+    reach_symbol(l, gate);
+}
+
 /* The text of an item; a function's own name is no use of it. */
 static void reach_item(plr_linking *l, plr_node *node) {
     const plr_item *item = node->item;
     plr_unit *unit = node->unit;
     uint32_t first = item->first;
     reach_range(l, node, item->prefix, item->prefix_end);
+    reach_gate(l, node);
     if (item->kind == PLR_ITEM_MACRO) {
         reach_macro(l, node);
         return;

@@ -95,6 +95,9 @@ typedef struct plr_effect {
     plr_placement placement;
     const char *target; /* name of a built-in effect; NULL or "": the whole step */
     bool only_if_active;
+    /* A uniform bool that one of its units declares: while it is false, plug functions of that
+     * stage return at once, as if the effect were not there. NULL: there is none. */
+    const char *gate;
     plr_place
         place; /* where the author wrote the effect, for messages about the effect as a whole */
 } plr_effect;

@@ -462,6 +462,35 @@ static void test_local_target(void) {
     CHECK_LACKS(r->fragment, "plr1_");
 }
 
+/* A gate stands before all else in the plug functions, and nowhere else. */
+static void test_gate(void) {
+    begin();
+    base(BASE);
+    plr_effect *gated = effect("uniform bool gate = true;\nuniform float k;\n"
+                               "float half_of(float x) { return 0.5 * x; }\n"
+                               "void PLUG_change(inout vec4 x) {\n    x *= half_of(k);\n}\n"
+                               "void PLUG_lost(inout vec4 x) { x *= k; }\n");
+    gated->gate = "gate";
+    effect("uniform bool gate;\nvoid PLUG_change(inout vec4 x) { x.r = gate ? 0.0 : 1.0; }\n");
+    const linked *r = link_valid();
+    CHECK_HAS(r->fragment, "uniform bool plr0_gate = true;\n");
+    CHECK_HAS(r->fragment,
+              "void plr0_change(inout vec4 x) {\n    if (!plr0_gate)\n        return;\n"
+              "    x *= plr0_half_of(plr0_k);\n}");
+    CHECK_HAS(r->fragment, "void plr1_change(inout vec4 x) { x.r");
+    CHECK_INT(occurrences(r->fragment, "return;"), 1);
+    CHECK_ORDER(r->fragment, "uniform bool plr0_gate", "if (!plr0_gate)");
+}
+
+/* A gate that no unit of the stage declares is none. */
+static void test_no_gate(void) {
+    begin();
+    base(BASE);
+    effect("void PLUG_change(inout vec4 x) { x *= 0.5; }\n")->gate = "gate";
+    const linked *r = link_valid();
+    CHECK_LACKS(r->fragment, "return");
+}
+
 int main(void) {
     test_call();
     test_spacing();
@@ -489,5 +518,7 @@ int main(void) {
     test_only_if_active();
     test_bad_remove();
     test_local_target();
+    test_gate();
+    test_no_gate();
     return finish();
 }
