@@ -21,7 +21,7 @@ import pathlib
 import re
 import subprocess
 
-from harness import CaseError, Suite
+from harness import CaseError, Suite, rotate, unit
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "stability"
 PAGE = FOLDER.parents[2] / "docs" / "stability.md"
@@ -77,7 +77,9 @@ class Row:
         self.suite = suite
         self.number = number
         self.failure = failure
-        self.text = scene
+        head, mark, rest = scene.partition("\n")
+        assert head.startswith("#X3D") and mark, number
+        self.text = f"{head}\n# {number}, {failure}: {shows}\n{rest}"
         self.shows = shows
         self.invariant = invariant
         self.files = files or {}
@@ -180,8 +182,8 @@ class Stability(Suite):
         self.writing = False
         self.known_methods = None
 
-    def row(self, number, failure, scene, shows, invariant, files=None):
-        """`scene`, or a function that makes it."""
+    def row(self, number, failure, scene, shows, invariant, files=None, fault=None):
+        """`scene`, or a function that makes it. `fault`: why it is known to fail, until that is mended."""
 
         def register(function):
             row = Row(self, number, failure, scene() if callable(scene) else scene, shows, invariant, files)
@@ -201,7 +203,7 @@ class Stability(Suite):
 
             case.__name__ = number
             case.__doc__ = f"{number} {failure}"
-            self.case(case)
+            self.case(self.known_fault(fault)(case) if fault else case)
             return function
 
         return register
@@ -235,6 +237,29 @@ class Stability(Suite):
             self.run()
 
 
+# ---- rays of pixels, in the space of what is turned
+
+
+def parallel_rays(size, half, axis=(0, 1, 0), angle=0.0, distance=10.0):
+    """Origin and direction of each pixel's ray, top row first: an OrthoViewpoint at 0 0 `distance` with a field of
+    -half .. half, seen from a box that is turned about `axis`."""
+    (width, height), (wide, high) = size, half
+    for row in range(height):
+        for column in range(width):
+            place = (wide * ((column + 0.5) * 2 / width - 1), high * (1 - (row + 0.5) * 2 / height), distance)
+            yield rotate(axis, -angle, place), rotate(axis, -angle, (0, 0, -1))
+
+
+def perspective_rays(size, half_tangent, position=(0, 0, 0), axis=(0, 1, 0), angle=0.0):
+    """The same of a Viewpoint at `position` with `orientation` axis, angle; `half_tangent`: of half the smaller angle."""
+    width, height = size
+    scale = half_tangent / min(width, height)
+    for row in range(height):
+        for column in range(width):
+            ray = unit((scale * (2 * column + 1 - width), scale * (height - 1 - 2 * row), -1.0))
+            yield position, rotate(axis, angle, ray)
+
+
 # ---- arithmetic that rows share
 
 
@@ -245,6 +270,11 @@ def worst(a, b):
         return float("inf")
     differences = [abs(x - y) for x, y in zip(a, b)]
     return max(differences) if all(d == d for d in differences) else float("inf")
+
+
+def pixels_of(picture):
+    """All colours, top row first."""
+    return [tuple(picture.values[i : i + 4]) for i in range(0, len(picture.values), 4)]
 
 
 def wrong_numbers(picture, most=1.0 + 1e-6):
