@@ -127,8 +127,8 @@ static bool link_program(const plr_gl *gl, GLuint program, plr_glsl_messages *me
     return false;
 }
 
-static GLuint build(const plr_gl *gl, const char *const texts[PLR_STAGE_COUNT],
-                    plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link) {
+GLuint plr_cache_build(const plr_gl *gl, const char *const texts[PLR_STAGE_COUNT],
+                       plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link) {
     GLuint shaders[PLR_STAGE_COUNT] = {0}, program = gl->CreateProgram();
     bool fine = program != 0;
     for (int stage = 0; stage < PLR_STAGE_COUNT; stage++) {
@@ -233,6 +233,55 @@ void plr_cache_destroy(plr_cache **cache) {
     *cache = NULL;
 }
 
+/* Makes the program one of the cache's. */
+static bool keep(plr_cache *cache, const uint8_t key[PLR_SHA256_SIZE], GLuint program) {
+    if (cache->count >= cache->size / 2 && !grow(cache)) {
+        cache->gl->DeleteProgram(program);
+        return false;
+    }
+    slot *fresh = find(cache->slots, cache->size, key);
+    memcpy(fresh->key, key, PLR_SHA256_SIZE);
+    fresh->program = program;
+    fresh->defaults = plr_defaults_capture(cache->gl, program);
+    cache->count++;
+    return true;
+}
+
+/* From memory or disk; 0: it is in neither. */
+static GLuint find_program(plr_cache *cache, const uint8_t key[PLR_SHA256_SIZE]) {
+    const slot *known = find(cache->slots, cache->size, key);
+    if (known->program) {
+        cache->stats.from_memory++;
+        return known->program;
+    }
+    GLuint program = cache->on_disk ? load(cache, key) : 0;
+    if (!program || !keep(cache, key, program))
+        return 0;
+    cache->stats.from_disk++;
+    return program;
+}
+
+GLuint plr_cache_find(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT]) {
+    uint8_t key[PLR_SHA256_SIZE];
+    make_key(cache, texts, key);
+    return find_program(cache, key);
+}
+
+GLuint plr_cache_adopt(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT], GLuint program) {
+    uint8_t key[PLR_SHA256_SIZE];
+    make_key(cache, texts, key);
+    const slot *known = find(cache->slots, cache->size, key);
+    if (known->program) {
+        cache->gl->DeleteProgram(program);
+        return known->program;
+    }
+    if (!keep(cache, key, program))
+        return 0;
+    if (cache->on_disk)
+        store(cache, key, program);
+    return program;
+}
+
 GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT],
                          plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link) {
     uint8_t key[PLR_SHA256_SIZE];
@@ -240,29 +289,15 @@ GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COU
         messages[stage] = (plr_glsl_messages){0};
     *link = (plr_glsl_messages){0};
     make_key(cache, texts, key);
-    slot *known = find(cache->slots, cache->size, key);
-    if (known->program) {
-        cache->stats.from_memory++;
-        return known->program;
-    }
-    if (cache->count >= cache->size / 2 && !grow(cache)) {
+    GLuint program = find_program(cache, key);
+    if (program || !(program = plr_cache_build(cache->gl, texts, messages, link)))
+        return program;
+    cache->stats.compiled++;
+    if (cache->on_disk)
+        store(cache, key, program);
+    if (!keep(cache, key, program)) {
         plr_glsl_parse_log("error: no memory", link);
         return 0;
-    }
-    GLuint program = cache->on_disk ? load(cache, key) : 0;
-    if (program) {
-        cache->stats.from_disk++;
-    } else if ((program = build(cache->gl, texts, messages, link))) {
-        cache->stats.compiled++;
-        if (cache->on_disk)
-            store(cache, key, program);
-    }
-    if (program) {
-        slot *fresh = find(cache->slots, cache->size, key);
-        memcpy(fresh->key, key, sizeof key);
-        fresh->program = program;
-        fresh->defaults = plr_defaults_capture(cache->gl, program);
-        cache->count++;
     }
     return program;
 }

@@ -22,6 +22,15 @@ void plr_cache_destroy(plr_cache **cache);
 GLuint plr_cache_program(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT],
                          plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link);
 
+/* The same from memory or disk alone; 0: it is in neither. */
+GLuint plr_cache_find(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT]);
+/* What the compilers make of the texts, outside of any cache: on any thread with a context. */
+GLuint plr_cache_build(const plr_gl *gl, const char *const texts[PLR_STAGE_COUNT],
+                       plr_glsl_messages messages[PLR_STAGE_COUNT], plr_glsl_messages *link);
+/* Takes over a program that was built elsewhere, in a context that shares with the cache's. The one
+ * to use, which may be another; 0 without memory: then it is deleted. */
+GLuint plr_cache_adopt(plr_cache *cache, const char *const texts[PLR_STAGE_COUNT], GLuint program);
+
 /* What the uniforms of a program of the cache are when nobody has set them; owned by the cache. */
 const plr_defaults *plr_cache_defaults(const plr_cache *cache, GLuint program);
 

@@ -9,7 +9,7 @@
 
 struct plr_context {
     const plr_context_platform *platform;
-    void *state;
+    void *state, *shared; /* of plr_context_make_shared_current */
     char description[256];
 };
 
@@ -96,9 +96,24 @@ plr_context *plr_context_create(plr_backend backend, plr_diags *diags) {
     return plr_context_create_with(backend, &(plr_context_libraries){0}, diags);
 }
 
+bool plr_context_make_shared_current(void *context, bool current) {
+    plr_context *c = context;
+    unbind_all();
+    if (current && !c->shared)
+        c->shared = c->platform->share(c->state);
+    if (current)
+        return c->shared && c->platform->make_current(c->shared);
+    if (c->shared)
+        c->platform->close(c->shared);
+    c->shared = NULL;
+    return true;
+}
+
 void plr_context_destroy(plr_context **context) {
     if (!*context)
         return;
+    if ((*context)->shared)
+        (*context)->platform->close((*context)->shared);
     if ((*context)->state)
         (*context)->platform->close((*context)->state);
     free(*context);

@@ -11,6 +11,9 @@ typedef struct plr_context_platform {
     /* Makes a context that is not yet current. `library` NULL: the usual names. NULL with the
      * reason in `reason` if there is none. */
     void *(*open)(const char *library, char *reason, size_t size);
+    /* Makes another context that shares programs, textures and buffers with that of `state`, which
+     * may be current on another thread. NULL: it cannot be had. */
+    void *(*share)(void *state);
     /* Nothing of either platform is current on this thread when this is called. */
     bool (*make_current)(void *state);
     /* Leaves this thread without a context of this API, whoever made it current. */

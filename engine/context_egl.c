@@ -88,15 +88,16 @@ static bool choose_config(const egl *e, EGLConfig *config) {
     return e->ChooseConfig(e->display, attributes, config, 1, &count) && count > 0;
 }
 
+static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    3,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    3,
+                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                    EGL_NONE};
+
 /* Makes a context on the display, or says why not. */
 static const char *try_display(egl *e, EGLDisplay display) {
-    static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_MINOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                        EGL_NONE};
     EGLint major = 0, minor = 0;
     EGLConfig config;
     if (display == EGL_NO_DISPLAY)
@@ -196,6 +197,23 @@ static void *egl_open(const char *library, char *reason, size_t size) {
     return NULL;
 }
 
+static void *egl_share(void *state) {
+    const egl *e = state;
+    egl *other = calloc(1, sizeof *other);
+    EGLConfig config;
+    if (!other)
+        return NULL;
+    *other = *e;
+    other->library = load(NULL, RTLD_NOLOAD); /* held once more */
+    other->context = e->BindAPI(EGL_OPENGL_API) && choose_config(e, &config)
+                         ? e->CreateContext(e->display, config, e->context, attributes)
+                         : EGL_NO_CONTEXT;
+    if (other->context != EGL_NO_CONTEXT)
+        return other;
+    finish(other);
+    return NULL;
+}
+
 static bool egl_make_current(void *state) {
     egl *e = state;
     return e->BindAPI(EGL_OPENGL_API) &&
@@ -225,5 +243,6 @@ static void *egl_get_proc_address(void *state, const char *name) {
 }
 
 const plr_context_platform plr_context_egl = {
-    PLR_BACKEND_EGL, "EGL", egl_open, egl_make_current, egl_unbind, egl_close, egl_get_proc_address,
+    PLR_BACKEND_EGL,  "EGL",      egl_open,  egl_share,
+    egl_make_current, egl_unbind, egl_close, egl_get_proc_address,
 };

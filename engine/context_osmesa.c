@@ -56,16 +56,17 @@ static void finish(osmesa *o) {
     free(o);
 }
 
+static const int attributes[] = {OSMESA_FORMAT,
+                                 0x1908, /* GL_RGBA */
+                                 OSMESA_PROFILE,
+                                 OSMESA_CORE_PROFILE,
+                                 OSMESA_CONTEXT_MAJOR_VERSION,
+                                 3,
+                                 OSMESA_CONTEXT_MINOR_VERSION,
+                                 3,
+                                 0};
+
 static void *osmesa_open(const char *library, char *reason, size_t size) {
-    static const int attributes[] = {OSMESA_FORMAT,
-                                     0x1908, /* GL_RGBA */
-                                     OSMESA_PROFILE,
-                                     OSMESA_CORE_PROFILE,
-                                     OSMESA_CONTEXT_MAJOR_VERSION,
-                                     3,
-                                     OSMESA_CONTEXT_MINOR_VERSION,
-                                     3,
-                                     0};
     osmesa *o = calloc(1, sizeof *o);
     if (!o)
         return NULL;
@@ -82,6 +83,20 @@ static void *osmesa_open(const char *library, char *reason, size_t size) {
         snprintf(reason, size, "it has no core profile of GL 3.3");
     }
     finish(o);
+    return NULL;
+}
+
+static void *osmesa_share(void *state) {
+    const osmesa *o = state;
+    osmesa *other = calloc(1, sizeof *other);
+    if (!other)
+        return NULL;
+    *other = *o;
+    other->library = load(NULL, RTLD_NOLOAD); /* held once more */
+    other->context = o->CreateContextAttribs(attributes, o->context);
+    if (other->context)
+        return other;
+    finish(other);
     return NULL;
 }
 
@@ -113,5 +128,5 @@ static void *osmesa_get_proc_address(void *state, const char *name) {
 }
 
 const plr_context_platform plr_context_osmesa = {
-    PLR_BACKEND_OSMESA,     "OSMesa", osmesa_open, osmesa_make_current, osmesa_unbind, osmesa_close,
-    osmesa_get_proc_address};
+    PLR_BACKEND_OSMESA,  "OSMesa",      osmesa_open,  osmesa_share,
+    osmesa_make_current, osmesa_unbind, osmesa_close, osmesa_get_proc_address};

@@ -35,6 +35,8 @@ PLR_API void plr_context_destroy(plr_context **context);
 PLR_API bool plr_context_make_current(plr_context *context);
 /* The loader of the context; `user` is the context. */
 PLR_API void *plr_context_get_proc_address(void *context, const char *name);
+/* For plr_engine_desc.make_shared_current; `user` is the context. */
+PLR_API bool plr_context_make_shared_current(void *context, bool current);
 /* PLR_BACKEND_EGL or PLR_BACKEND_OSMESA; and a line "EGL, llvmpipe (LLVM 15...), 4.5". */
 PLR_API plr_backend plr_context_backend(const plr_context *context);
 PLR_API const char *plr_context_description(const plr_context *context);
@@ -47,6 +49,11 @@ typedef struct plr_engine_desc {
     void *(*get_proc_address)(void *user, const char *name);
     void *user;
     const char *cache_folder; /* for compiled programs; NULL: none on disk */
+    /* For views that are interactive: a thread of the engine calls it with `current` true before it
+     * builds programs, and with false at its end. It makes a context current on that thread that
+     * shares programs with the engine's. NULL: plr_view_build builds, on the thread that calls it.
+     */
+    bool (*make_shared_current)(void *user, bool current);
 } plr_engine_desc;
 
 /* Programs and textures of one GL context. Needs GL. */
