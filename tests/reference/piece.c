@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double OPAQUE = 1e-12;   /* what rounding may have left of 1 - alpha */
-static const double UNCERTAIN = 1e-9; /* less than this is nearly opaque */
+/* How far rounding may keep a value from one that is opaque; and what is too near to be sure. */
+static const double OPAQUE = 1e-13;
+static const double UNCERTAIN = 1e-10;
 
 static void add_cut(ref_sum *sum, double t, const ref_walk *walk, const ref_interval *interval) {
     if (sum->cut_count == sum->cut_room) {
@@ -52,9 +53,9 @@ static int earlier(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* What is left of 1 - alpha for a volume at t, at the end of one interval or the beginning of the
- * other where that is a knot of its own. Sets the interval that it was found in. */
-static double clearness(ref_walk *walk, double t, const ref_cut *cut) {
+/* How far the value of a volume at t is from one that is opaque, in the interval that it lies in,
+ * at a knot of its own in the less clear one of two. Sets that interval. */
+static double away_from_opaque(ref_walk *walk, double t, const ref_cut *cut) {
     double value = ref_walk_value(walk, t);
     const ref_interval *interval =
         &walk->transfer->intervals[ref_transfer_find(walk->transfer, value)];
@@ -66,19 +67,22 @@ static double clearness(ref_walk *walk, double t, const ref_cut *cut) {
             interval--;
     }
     walk->interval = interval;
-    return interval->clearness - interval->slope[3] * (value - interval->anchor);
+    if (interval->is_opaque)
+        return 0;
+    return interval->clearness <= 1e-15 ? fabs(value - interval->anchor) : INFINITY;
 }
 
-/* Whether the ray ends at t. If rounding alone may have kept it from that, what the pixel would be
- * is noted, the first time: that is where most shines through. */
+/* Whether the ray ends at t, in a value that is opaque; not where it enters or leaves a volume,
+ * which has no length. If rounding alone may have kept it from that, what the pixel would be is
+ * noted, the first time: that is where most shines through. */
 static bool ends_at(ref_sum *sum, double t, const ref_cut *cut) {
     double color[3] = {0}, least = INFINITY;
     int count = 0;
     for (int w = 0; w < sum->count; w++) {
         ref_walk *walk = sum->walks[w];
-        double left = clearness(walk, t, cut);
-        least = fmin(least, left);
-        if (left > UNCERTAIN)
+        double away = ref_walk_inside(walk, t) ? away_from_opaque(walk, t, cut) : INFINITY;
+        least = fmin(least, away);
+        if (away > UNCERTAIN)
             continue;
         double here[3];
         ref_walk_color(walk, t, ref_walk_value(walk, t), here);
@@ -112,7 +116,7 @@ static bool choose(ref_sum *sum, double t, bool *opaque) {
         int k = ref_transfer_find(walk->transfer, ref_walk_value(walk, t));
         walk->interval = &walk->transfer->intervals[k];
         seen = seen || !walk->interval->is_clear;
-        *opaque = *opaque || walk->interval->is_opaque;
+        *opaque = *opaque || (walk->interval->is_opaque && ref_walk_inside(walk, t));
     }
     return seen;
 }

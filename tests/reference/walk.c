@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double ROUNDING = 1e-12; /* of the way through a volume */
+
 void ref_steps_begin(ref_steps *steps, double t) {
     for (int i = 0; i < 3; i++) {
         double way = steps->way[i], at = steps->start[i] + t * way;
@@ -75,10 +77,17 @@ bool ref_walk_begin(ref_walk *walk, const ref_volume *volume, const double origi
     }
     if (!(walk->enter < walk->leave))
         return false;
-    ref_steps_begin(&walk->voxels, walk->enter);
+    /* faces of cells that coincide with the entry, or the exit, are none */
+    double first = walk->enter + ROUNDING * (walk->leave - walk->enter);
+    ref_steps_begin(&walk->voxels, first);
     if (volume->labels.data)
-        ref_steps_begin(&walk->labels, walk->enter);
+        ref_steps_begin(&walk->labels, first);
     return true;
+}
+
+bool ref_walk_inside(const ref_walk *walk, double t) {
+    double near = ROUNDING * (walk->leave - walk->enter);
+    return t > walk->enter + near && t < walk->leave - near;
 }
 
 double ref_walk_value(const ref_walk *walk, double t) {
@@ -86,8 +95,10 @@ double ref_walk_value(const ref_walk *walk, double t) {
 }
 
 double ref_walk_next(const ref_walk *walk) {
-    double next = fmin(walk->leave, ref_steps_next(&walk->voxels));
-    return walk->volume->labels.data ? fmin(next, ref_steps_next(&walk->labels)) : next;
+    double next = ref_steps_next(&walk->voxels);
+    if (walk->volume->labels.data)
+        next = fmin(next, ref_steps_next(&walk->labels));
+    return next < walk->leave - ROUNDING * (walk->leave - walk->enter) ? next : walk->leave;
 }
 
 static double mapped(const ref_volume *volume, double stored) {

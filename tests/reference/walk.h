@@ -34,6 +34,8 @@ typedef struct ref_walk {
 
 bool ref_walk_begin(ref_walk *walk, const ref_volume *volume, const double origin[3],
                     const double way[3], double start, double limit);
+/* Whether t is clearly behind the entry and before the exit. */
+bool ref_walk_inside(const ref_walk *walk, double t);
 double ref_walk_value(const ref_walk *walk, double t);
 double ref_walk_next(const ref_walk *walk);
 void ref_walk_read(ref_walk *walk, double t);
