@@ -9,11 +9,15 @@ from harness import Picture, box_interval, over, premultiplied
 from scenes import NO_HEADLIGHT, constant, effect, front_scene, quad, scene, volume, voxels
 from stability_data import Stability, parallel_rays, pixels_of, worst, wrong_numbers
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
+TESTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+sys.path[1:1] = [os.path.join(TESTS, "tools"), os.path.join(TESTS, "reference")]
+import reference  # noqa: E402
 from pictures import read_png  # noqa: E402
 
 suite = Stability()
+reference.beside(suite.program)
 PLAIN = "ShadedVolumeStyle { }"  # without light: the voxel's own colour
+AS_ASKED = "with an error of 1/255 asked for, colours are wrong by"
 FLOOR = 2e-6  # of 32-bit floats over some hundred steps
 
 
@@ -119,6 +123,9 @@ def last_steps(row):
             p = row.picture("--step", step, *options, size="96x4")
             error = max(abs(c[3] - a) for c, a in zip(pixels_of(p), exact))
             row.measure("A differs by", error, at_most=4e-6, case=f"{name} {step}")
+    for asked, options in row.planned():
+        got = pixels_of(row.picture(*options, size="96x4"))
+        row.measure(AS_ASKED, max(abs(c[3] - a) for c, a in zip(got, exact)), at_most=asked)
     coat = row.changed((constant(40, (7, 7, 7)), voxels(1, (1, 1, 4), (255, 0, 0, 0))))
     seen = [i for i, (o, d) in enumerate(rays) if box_interval(o, d)[1] > 0 and
             exit_depth(o, d) < -0.5 + 1e-9]
@@ -197,6 +204,8 @@ def thin(row):
         color = row.middle("--step", 0.25, *options)
         row.measure("A differs by", abs(color[3] - exact), at_most=2e-5, case=name)
         row.measure("colour differs by", abs(color[0] - exact / 255), at_most=2e-5, case=name)
+    for asked, options in row.planned():
+        row.measure(AS_ASKED, abs(row.middle(*options)[3] - exact), at_most=asked)
 
 
 RISE = voxels(1, (1, 1, 2), (2, 5))
@@ -270,6 +279,8 @@ def association(row):
                     case=name)
         p = row.picture("--step", 0.5, *options)
         row.count("colours beyond their opacity", sum(max(c[:3]) > c[3] + FLOOR for c in pixels_of(p)), case=name)
+    for asked, options in row.planned():
+        row.measure(AS_ASKED, worst([row.middle(*options)], [(red, 0, blue, alpha)]), at_most=asked)
 
 
 @suite.row("F12", "sRGB decoded twice or never", scene=front_scene(
@@ -338,6 +349,9 @@ def order(row):
                 (near, see(b, a)), (see(one, two), see(two, one))) for x, y in zip(p, q)), case=case)
         segments = row.middle("--step", 1 / 256, *options, scene=front_scene(SEGMENTS))
         row.measure("segments differ, with steps of 1/256, by", worst([segments], [over(red, blue)]), at_most=1 / 255, case=name)
+    for asked, options in row.planned():
+        for text, exact in ((row.text, over(red, blue)), (front_scene(SEGMENTS), over(red, blue)), (front_scene(one, two), mixed)):
+            row.measure(AS_ASKED, worst([row.middle(*options, scene=text)], [exact]), at_most=asked)
 
 
 STRIPES = [40 + 200 * (k % 2) for k in range(100)]
@@ -379,6 +393,9 @@ def finest(row):
                     at_most=1 / 255, case=name)
         q = row.picture("--step", 0.25, *options, size="4x4", scene=fine_and_coarse(FINE, COARSE))
         row.count("numbers that the order of the file changes", sum(a != b for a, b in zip(p.values, q.values)), case=name)
+    for asked, options in row.planned():
+        p = row.picture(*options, size="4x4")
+        row.measure(AS_ASKED, max(worst([c], [exact]) for c in pixels_of(p)), at_most=asked)
 
 
 @suite.row("F16", "a cap on steps", scene=front_scene(volume(voxels(1, (1, 1, 1024), [255] + [0] * 1023), dimensions=(1, 1, 1024)))
@@ -397,6 +414,8 @@ def many_steps(row):
         for step in (1 / 64, 1 / 2048):
             p = row.middle("--step", step, *options, scene=cut)
             row.measure("half the haze is wrong by", abs(p[3] - exact), at_most=1e-3, case=f"{name} {step:.2g}")
+    for asked, options in row.planned():
+        row.measure(AS_ASKED, max(1 - row.middle(*options)[3], 1 - row.middle(*options, scene=haze)[3]), at_most=asked)
 
 
 def cube(size):
@@ -422,11 +441,138 @@ def entries(row):
         a = row.picture("--step", 0.5, *options)
         b = row.picture("--step", 0.5, *options, scene=far)
         row.measure("moving the eye along the ray changes colours by", worst(a, b), at_most=2e-5, case=name)
+    for asked, options in row.planned():
+        pictures = [row.picture(*options, scene=text) for text in (row.text, front_scene(cube(10)), far)]
+        row.measure("with an error of 1/255 asked for, any of it changes colours by", max(worst(pictures[0], p) for p in pictures),
+                    at_most=2 * asked)
     top, wide = (row.picture("--step", 0.1, scene=front_scene(cube(n)).replace("dimensions", MAXIMUM)) for n in (6, 10))
     row.measure("empty voxels around change a maximum by", worst([top.values[::4]], [wide.values[::4]]), at_most=2e-2)
 
 
 MAXIMUM = 'renderStyle ProjectionVolumeStyle { type "MAX" } dimensions'
+
+
+# ---- F5, F6, F13: functions of high frequencies, against the reference
+
+
+def texels(alphas, rgb=lambda i: (255, 255, 255)):
+    """Style and the reference's function of the same texels."""
+    colors = [rgb(i) + (a,) for i, a in enumerate(alphas)]
+    return function(*colors), reference.texels([[c / 255 for c in color] for color in colors])
+
+
+def true_picture(numbers, size, transfer, half, pixels, turn=None, kind="u8", **fields):
+    matrix = reference.turned((*turn[0], turn[1])) if turn else reference.IDENTITY
+    values, errors = reference.truth([reference.volume(size, numbers, kind, transfer=transfer, matrix=matrix, **fields)],
+                                     reference.camera((0, 0, 10), fieldOfView=(-half, -half, half, half)), pixels)
+    return [values.at(x, y) for y in range(pixels[1]) for x in range(pixels[0])], max(errors.data)
+
+
+SHELL = 12
+SHELL_NUMBERS = [max(0, min(255, round(255 - 36 * math.dist((i, j, k), ((SHELL - 1) / 2,) * 3))))
+                 for k in range(SHELL) for j in range(SHELL) for i in range(SHELL)]
+STEP_STYLE, STEP_TRUTH = texels([0] * 16 + [120] * 8 + [0] * 8, lambda i: (255, 180, 90) if i % 2 else (90, 180, 255))
+SHELL_TURN = (1, 2, 0.5), 0.6
+
+
+@suite.row("F5", "wood grain", scene=scene(view(0.5, 0.5), NO_HEADLIGHT, turned(*SHELL_TURN, volume(
+               voxels(1, (SHELL,) * 3, SHELL_NUMBERS), STEP_STYLE))),
+           shows="a shell of 2 voxels with abrupt edges and colours in a turned box",
+           invariant="no rings: the picture comes to the true one as steps get finer, and to the error asked for")
+def wood_grain(row):
+    true, bar = true_picture(SHELL_NUMBERS, (SHELL,) * 3, STEP_TRUTH, 0.5, (32, 32), SHELL_TURN)
+    row.measure("error bar of the reference", bar, at_most=1e-5)
+    for name, options in row.methods():
+        errors = [worst(pixels_of(row.picture("--step", step, *options, size="32x32")), true) for step in (1, 1 / 64)]
+        row.measure("with steps of 1/64, colours are wrong by", errors[1], at_most=1 / 255, case=name, details=[errors])
+    for asked, options in row.planned():
+        got = pixels_of(row.picture(*options, size="32x32"))
+        row.measure(AS_ASKED, worst(got, true), at_most=asked)
+
+
+COMB = [0 if i % 2 == 0 else 90 for i in range(65)]
+COMB_STYLE, COMB_TRUTH = texels(COMB)
+SPIKE = [0] * 65
+SPIKE[37] = 200
+SPIKE_STYLE, SPIKE_TRUTH = texels(SPIKE)
+EVEN = [round(255 * i / 16) for i in range(17)]
+FINE_CROP = "cropMin 0 0 .03125 cropMax 1 1 .96875 dimensions 1 1 16 opacityUnitDistance 2"
+
+
+def even_ramp(style):
+    content = volume(voxels(1, (1, 1, 17), EVEN), style, fields=FINE_CROP).replace("dimensions 1 1 1\n", "")
+    return scene(view(0.3, 0.3).replace("0 0 10", "0 0 20"), NO_HEADLIGHT, turned((0, 1, 0), 0.02, content))
+
+
+@suite.row("F6", "high frequencies of the transfer function missed", scene=even_ramp(COMB_STYLE),
+           shows="a ramp with 32 teeth of opacity, and with one thin spike, each of 1/2 voxel",
+           invariant="midpoint sees them with fine steps, integrals of the function with steps of a voxel, too")
+def teeth(row):
+    for kind, style, transfer in (("teeth", COMB_STYLE, COMB_TRUTH), ("spike", SPIKE_STYLE, SPIKE_TRUTH)):
+        matrix = reference.turned((0, 1, 0, 0.02))
+        values, _ = reference.truth(
+            [reference.volume((1, 1, 17), EVEN, transfer=transfer, matrix=matrix, dimensions=(1, 1, 16), opacity_unit=2,
+                              crop=((0, 0, 0.03125), (1, 1, 0.96875)))],
+            reference.camera((0, 0, 20), fieldOfView=(-0.3, -0.3, 0.3, 0.3)), (8, 8))
+        true = [values.at(x, y) for y in range(8) for x in range(8)]
+        row.measure("opacity of the truth", min(c[3] for c in true), at_least=0.05, case=kind)
+        for name, options in row.methods():
+            for step in (1 / 64,) if name == "midpoint" else (1, 1 / 64):
+                got = pixels_of(row.picture("--step", step, *options, scene=even_ramp(style), size="8x8"))
+                row.measure("colours are wrong by", worst(got, true), at_most=1 / 255, case=f"{kind}, {name}, {step:g}")
+        for asked, options in row.planned():
+            got = pixels_of(row.picture(*options, scene=even_ramp(style), size="8x8"))
+            row.measure(AS_ASKED, worst(got, true), at_most=asked, case=kind)
+
+
+FLAT = [30000, 30001, 30000, 30002, 30001, 30000, 30002, 30000]
+FLAT_FILE = ("NRRD0004\ntype: ushort\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nmin: 0\nmax: 65535\n\n"
+             + " ".join(map(str, FLAT)) + "\n")
+NARROW = [0] * 1001
+NARROW[617] = 160
+NARROW_STYLE, NARROW_TRUTH = texels(NARROW)
+
+
+def segments_scene(data, style, fields):
+    return front_scene(volume(data, style, fields=fields))
+
+
+def ramp_truth(transfer, reach, unit):
+    values, _ = reference.truth(
+        [reference.volume((1, 1, 2), [0, 255], transfer=transfer, crop=((0, 0, reach), (1, 1, 1 - reach)), opacity_unit=unit)],
+        reference.camera((0, 0, 10), fieldOfView=(-1, -1, 1, 1)), (1, 1))
+    return values.at(0, 0)
+
+
+@suite.row("F13", "pre-integration: division by nothing, coarse tables, attenuation left out", scene=segments_scene(
+               'ImageTexture3D { url "F13-flat.nrrd" }', function((255, 0, 0, 20), (0, 0, 255, 220)), "opacityUnitDistance .3"),
+           shows="values that differ by 1/65535 in a step; a ramp through the default function; a spike of 1/1000",
+           invariant="nearly constant values are as constant ones; halved steps quarter the error; a spike is whole for any step",
+           files={"F13-flat.nrrd": FLAT_FILE})
+def integrals(row):
+    value = sum(FLAT) / 8 / 65535
+    alpha = (20 + 200 * value) / 255
+    flat = premultiplied((1 - value, 0, value), 1 - (1 - alpha) ** (1 / 0.3))
+    tone = function((0, 0, 0, 0), (255, 255, 255, 178))
+    true = ramp_truth(reference.texels([(0, 0, 0, 0), (1, 1, 1, 178 / 255)]), 0.25, 0.2)
+    spike = ramp_truth(NARROW_TRUTH, 0.25, 0.01)
+    row.measure("opacity of the spike", spike[3], at_least=0.03)
+    ramp = voxels(1, (1, 1, 2), (0, 255))
+    side = 0.5 ** (1 / 3)  # of a voxel, the mean
+    for name, options in row.methods():
+        for step in (2, 0.5, 1 / 16, 1 / 256):
+            row.measure("of nearly constant values, colours differ from constant ones by",
+                        worst([row.middle("--step", step, *options)], [flat]), at_most=2e-5, case=f"{name} {step:g}")
+        core = "cropMin 0 0 .25 cropMax 1 1 .75 opacityUnitDistance "
+        errors = []
+        for steps in (8.37, 16.74, 33.48, 66.96):
+            got = row.middle("--step", 0.5 / steps / side, *options, scene=segments_scene(ramp, tone, core + ".2"))
+            errors.append(worst([got], [true]))
+        row.measure("error of 67 steps on the ramp, beyond 1/40 of that of 8", errors[3] - errors[0] / 40, at_most=FLOOR,
+                    case=name, details=[errors])
+        for steps in (8.37, 512) if name != "midpoint" else (8192,):
+            got = row.middle("--step", 0.5 / steps / side, *options, scene=segments_scene(ramp, NARROW_STYLE, core + ".01"))
+            row.measure("the spike is wrong by", worst([got], [spike]), at_most=1e-3, case=f"{name} {steps:g}")
 
 
 suite.main(__name__)

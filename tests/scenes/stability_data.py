@@ -125,6 +125,10 @@ class Row:
         """Pairs of name and options of each way to integrate that the program has."""
         return self.suite.methods()
 
+    def planned(self):
+        """Pairs of asked error and options, where the program plans by an error."""
+        return self.suite.planned()
+
     def render(self, *arguments, scene=None, **options):
         return self.suite.render(scene or self.text, *arguments, files=self.files, **options)
 
@@ -181,6 +185,7 @@ class Stability(Suite):
         self.rows = []
         self.writing = False
         self.known_methods = None
+        self.plans = []
 
     def row(self, number, failure, scene, shows, invariant, files=None, fault=None):
         """`scene`, or a function that makes it. `fault`: why it is known to fail, until that is mended."""
@@ -229,7 +234,12 @@ class Stability(Suite):
             found = re.search(r"--method ([\w|]+)", text)
             names = [n for n in found.group(1).split("|") if n != "auto"] if found else []
             self.known_methods = [(name, ("--method", name)) for name in names] or [("midpoint", ())]
+            self.plans = [(1 / 255, ("--error", "1/255"))] if "--error" in text else []
         return self.known_methods
+
+    def planned(self):
+        self.methods()
+        return self.plans
 
     def main(self, name):
         """Runs the rows, where the file is the program."""
