@@ -12,7 +12,8 @@
 /* The units of a volume's own effect, by what it does along the ray. */
 static const char *const volume_units[] = {
     [PLR_VOLUME_FILLED] = "volume/Volume volume/grid volume/steps",
-    [PLR_VOLUME_SURFACES] = "volume/Volume volume/grid volume/levels volume/surfaces",
+    [PLR_VOLUME_SURFACES] =
+        "volume/Volume volume/grid volume/levels volume/crossings volume/surfaces",
     [PLR_VOLUME_PROJECTED] = "volume/Volume volume/grid volume/projection"};
 
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state) {
@@ -22,7 +23,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_LABELS", state->labels ? "1" : "0"},
         {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
-        {"PROJECTS", state->kind == PLR_VOLUME_PROJECTED ? "1" : "0"}};
+        {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
     return plr_recipe_builtin(&view->kitchen, recipe, volume_units[state->kind],

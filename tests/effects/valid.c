@@ -32,7 +32,7 @@ typedef struct linked {
     plr_diags *diags;
     plr_source *sources[256];
     size_t source_count;
-    const plr_source *lists[MOST][4], *library[MOST], *base[4];
+    const plr_source *lists[MOST][5], *library[MOST], *base[4];
     plr_effect effects[MOST];
     plr_program *program;
 } linked;
@@ -261,7 +261,7 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
                                      {"OPAQUE", "0"}};
 /* The units of a volume's effect, by what it does along the ray. */
 #define STEPPED "volume/Volume volume/grid volume/steps"
-#define SURFACES "volume/Volume volume/grid volume/levels volume/surfaces"
+#define SURFACES "volume/Volume volume/grid volume/levels volume/crossings volume/surfaces"
 #define PROJECTED "volume/Volume volume/grid volume/projection"
 /* And along the way of light. */
 #define SHADOW_STEPS "volume/ShadowRay volume/grid volume/shadow_steps"
@@ -314,8 +314,11 @@ static const plr_define labelled[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"PROJECTS", "0"}};
 static const plr_define rgba[] = {
     {"voxels_COMPONENTS", "4"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}};
-static const plr_define given_gradients[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "1"}};
+static const plr_define given_gradients[] = {{"voxels_COMPONENTS", "1"},
+                                             {"HAS_LABELS", "0"},
+                                             {"PROJECTS", "0"},
+                                             {"HAS_gradients", "1"},
+                                             {"GIVEN_surfaceTolerance", "1"}};
 static const plr_define least[] = {{"voxels_COMPONENTS", "2"},
                                    {"HAS_LABELS", "0"},
                                    {"PROJECTS", "1"},
@@ -799,14 +802,23 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"},
       {.path = "lights/DirectionalLight"}},
      DEFINES(surfaces),
-     .present = "find_crossing choiceNumber MaterialInfo",
-     .absent = "volume_mix_add segment"},
+     .present = "next_crossing cubic choiceNumber MaterialInfo",
+     .absent = "volume_mix_add segment cell_value is_steep"},
     {"surfaces with gradients of their own, no style",
      "volume/raycaster",
      {{.path = SURFACES, DEFINES(given_gradients)}, {.path = "volume/Composite"}},
      DEFINES(surfaces),
-     .present = "gradients",
+     .present = "gradients is_steep",
      .absent = "gradient_at normal_eye"},
+    {"surfaces of values that an author changes",
+     "volume/raycaster",
+     {{.path = SURFACES, DEFINES(scalar)},
+      {"author",
+       .text = "void PLUG_volume_sample(inout VolumeSample s) { s.value.r *= s.value.r; }"},
+      {.path = "volume/Composite"}},
+     DEFINES(surfaces),
+     .present = "cell_value sampleDistance",
+     .absent = "cubic is_steep"},
     {"three projections",
      "volume/raycaster",
      {{.path = PROJECTED, DEFINES(least)},
