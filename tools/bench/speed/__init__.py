@@ -1,0 +1,1 @@
+"""What tools/bench/pareto is made of."""

@@ -1,0 +1,222 @@
+"""Points of speed and error: who drew what with which setting, how long it took, how far from the truth."""
+
+import math
+import operator
+import os
+
+from . import data, engines, scenes
+
+# ---- What is compared ----
+
+class Method:
+    """A way to draw, with one knob."""
+
+    def __init__(self, name, who, words, knob, values, quick, shaded=True):
+        self.name = name
+        self.who = who        # "plugray" or the mapper of VTK
+        self.words = words    # further options
+        self.knob = knob      # the option that takes the knob's value
+        self.values = values
+        self.quick = quick    # fewer values
+        self.shaded = shaded  # whether it is measured on shaded pictures, too
+
+
+STEPS = (4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16)
+ERRORS = (1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64, 1 / 128, 1 / 255, 1 / 1023)
+VTK_STEPS = (2, 1, 1 / 2, 1 / 4, 1 / 8)
+METHODS = (
+    Method("midpoint", "plugray", ("--method", "midpoint"), "--step", STEPS, (2, 1, 1 / 2, 1 / 4)),
+    Method("preintegrated", "plugray", ("--method", "preintegrated"), "--step", STEPS,
+           (2, 1, 1 / 2, 1 / 4)),
+    Method("cells", "plugray", ("--method", "cells"), "--error", ERRORS, (1 / 16, 1 / 64, 1 / 255)),
+    Method("planner", "plugray", (), "--error", ERRORS, (1 / 16, 1 / 64, 1 / 255)),
+    Method("VTK GPU", "gpu", (), "step", VTK_STEPS, (1, 1 / 2, 1 / 8)),
+    Method("VTK fixed point", "fixed", (), "step", VTK_STEPS, (1, 1 / 2, 1 / 8), shaded=False),
+)
+BARE = ("--no-leaping",)  # added to plain midpoint: nothing is passed over
+
+
+def supported(method, plugray):
+    return method.who != "plugray" or plugray.can((*method.words, method.knob)) or method.name == "midpoint"
+
+
+class Setting:
+    """A volume, seen in one way: what one chart shows."""
+
+    def __init__(self, volume, size, perspective=False, shaded=False, title=""):
+        self.volume = volume
+        self.size = size
+        self.perspective = perspective
+        self.shaded = shaded
+        self.name = "-".join((volume.name, "perspective" if perspective else "orthographic",
+                              "shaded" if shaded else "unshaded"))
+        self.title = title
+        self.scene = scenes.scene(volume, perspective, shaded)
+
+
+def settings(quick):
+    big, small = (256, 128) if quick else (512, 256)
+    lobb64, lobb128, head = data.lobb_volume(64), data.lobb_volume(128), data.head_volume(256)
+    found = []
+    for volume in (lobb64, lobb128, head):
+        for perspective in (False, True):
+            for shaded in (False, True):
+                plain = not perspective and (volume is not head or not shaded)
+                found.append(Setting(volume, big if plain else small, perspective, shaded))
+    found.append(Setting(data.smooth_volume(64), small, title="a transfer function without edges"))
+    return found
+
+
+# ---- Statistics ----
+
+def standard_error(values):
+    """Of the mean, relative to it; pessimistic where there is one value alone."""
+    if len(values) < 2:
+        return 0.05
+    mean = sum(values) / len(values)
+    square = sum((v - mean) ** 2 for v in values) / (len(values) - 1)
+    return math.sqrt(square / len(values)) / mean
+
+
+class Error:
+    """The difference of two pictures over all pixels and channels."""
+
+    def __init__(self, picture, truth):
+        if len(picture) != len(truth):
+            raise engines.Failed(f"{len(picture)} numbers for {len(truth)}")
+        self.rmse = math.dist(picture, truth) / math.sqrt(len(truth))
+        self.most = max(map(abs, map(operator.sub, picture, truth)))
+
+
+# ---- Points ----
+
+class Point:
+    """One method at one value of its knob."""
+
+    def __init__(self, bench, setting, method, knob, extra=()):
+        self.bench = bench
+        self.setting = setting
+        self.method = method
+        self.knob = knob
+        self.extra = tuple(extra)
+        self.cpu, self.wall = [], []
+        self.error = None
+        self.said = None  # what plugray says about its error
+
+    @property
+    def words(self):
+        words = self.method.words if self.bench.plugray.can(self.method.words) else ()
+        return (*words, self.method.knob, f"{self.knob:.9g}", *self.extra)
+
+    def settings_text(self):
+        if self.method.who == "plugray":
+            return " ".join(self.words)
+        return f"sample distance {self.knob:g}"
+
+    def draw(self, judge=False, budget=0.4):
+        """Measures once more; `budget` is for the frames of one measurement, CPU seconds."""
+        folder, setting = self.bench.folder, self.setting
+        picture = os.path.join(folder, f"picture-{os.getpid()}.npy") if judge else None
+        if self.method.who == "plugray":
+            known = self.cpu[0] / 1e3 if self.cpu else 0.2
+            repeat = min(max(round(budget / max(known, 1e-3)), 1), 25)
+            stats = self.bench.plugray.render(setting.scene, self.words, setting.size, picture, repeat)
+            frame, self.said = stats["frame"], stats.get("error")
+        else:
+            frame = self.bench.vtk.render(setting.volume, self.method.who, self.knob, setting.size,
+                                          setting.perspective, setting.shaded, picture, budget)
+        self.cpu.append(frame.cpu)
+        self.wall.append(frame.wall)
+        if judge:
+            numbers = (engines.read_npy(picture) if self.method.who == "plugray"
+                       else engines.read_vtk(picture, setting.size))
+            os.remove(picture)
+            self.error = Error(numbers, self.bench.truth(setting).numbers)
+        return self
+
+    @property
+    def time(self):
+        return engines.median(self.cpu)
+
+    @property
+    def slack(self):
+        """Two standard errors, relative."""
+        return 2 * standard_error(self.cpu)
+
+
+def measure(points, rounds, progress):
+    """Draws all points in turns, so that a busy minute hits all of them. Those that fail are dropped."""
+    failed = []
+    for number in range(rounds):
+        for point in points:
+            if point in failed:
+                continue
+            try:
+                point.draw(judge=number == 0)
+            except engines.Failed as why:
+                failed.append(point)
+                progress.note(f"{point.setting.name}, {point.method.name} {point.knob:g}: {why}")
+            progress.step()
+    return [p for p in points if p not in failed]
+
+
+# ---- Curves ----
+
+def log_between(low, high, part):
+    return math.exp(math.log(low) + part * (math.log(high) - math.log(low)))
+
+
+def crossing(points, target):
+    """Where a method's curve reaches an error: (time, knob), or None; straight in logarithms."""
+    points = sorted(points, key=lambda p: p.time)
+    best = None
+    for point in points:
+        if point.error.rmse <= target and (best is None or point.time < best[0]):
+            best = point.time, point.knob
+    for low, high in zip(points, points[1:]):
+        if low.error.rmse > target >= high.error.rmse > 0:
+            part = math.log(low.error.rmse / target) / math.log(low.error.rmse / high.error.rmse)
+            found = log_between(low.time, high.time, part), log_between(low.knob, high.knob, part)
+            if best is None or found[0] < best[0]:
+                best = found
+    return best
+
+
+def front(points):
+    """Those that no other beats in both time and error, fastest first."""
+    best, found = math.inf, []
+    for point in sorted(points, key=lambda p: (p.time, p.error.rmse)):
+        if point.error.rmse < best:
+            best = point.error.rmse
+            found.append(point)
+    return found
+
+
+def front_time(points, error):
+    """How long the front takes to an error; straight in logarithms between its points."""
+    found = front(points)
+    for number, point in enumerate(found):
+        if point.error.rmse <= error:
+            if number == 0:
+                return point.time
+            before = found[number - 1]
+            part = math.log(before.error.rmse / error) / math.log(before.error.rmse / point.error.rmse)
+            return log_between(before.time, point.time, part)
+    return math.inf
+
+
+def seek(bench, setting, methods, points, target, tries=4):
+    """The cheapest setting of plugray whose error is at most the target, drawn and not interpolated."""
+    found = []
+    for method in methods:
+        at = crossing([p for p in points if p.method is method], target)
+        if at:
+            found.append((at[0], method, at[1]))
+    for _, method, knob in sorted(found, key=lambda f: f[0]):
+        known = {p.knob: p for p in points if p.method is method}
+        for _ in range(tries):
+            point = known.get(knob) or Point(bench, setting, method, knob).draw(judge=True)
+            if point.error.rmse <= target:
+                return Point(bench, setting, method, knob).draw(judge=True)
+            knob *= 0.97 * min(1, (target / point.error.rmse) ** 0.5)
+    return None

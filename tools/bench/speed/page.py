@@ -1,0 +1,112 @@
+"""Writes docs/speed-accuracy.md and the table of all points beside it."""
+
+import csv
+import os
+import re
+
+from . import charts, measure
+
+HEAD = """# Speed and accuracy
+
+Written by `{command}`; all points are in [points.csv](speed-accuracy/points.csv). Nothing on this page is
+typed by hand.
+
+Each point is one way to draw a volume, with one setting: the CPU time of a frame, of all threads, median of {rounds}
+rounds in which all ways take turns, and the error against one truth, over all pixels and all four channels of
+premultiplied floats. The truth is a raycaster in double precision ([tests/reference](../tests/reference/README.md)) that
+integrates the trilinear values and the linear pieces of the transfer function piece by piece; its own error bar is
+shown where it is near the curves. Pictures of VTK are taken as floats: its colour texture, of 8 bits, is made one of 32.
+
+Data: `ml64`, `ml128`: the signal of Marschner and Lobb, floats, under a thin tent; `ct256`: a head of shells, sheets and a
+wire with noise, 8 bits, under a function with eleven points; `smooth64`: the data of `ml64` under a function without edges.
+Voxels are of side 1, which is the reference length; the volume ends at the outermost voxels' centres. `ct256` shaded, and
+in perspective, as all other perspective views, are drawn smaller than the others; the size is in the table of points.
+Shaded: VTK's lighting formula, in plugray as an author's effect that promises `colour-only keeps-transparent`.
+
+Measured with: {machine}.
+"""
+
+
+def machine(bench):
+    """Processor, renderer and peers; no names of hosts or places."""
+    found = [f"{os.cpu_count()} cores"]
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        models = re.findall(r"model name\s*:\s*(.*)", file.read())
+    if models:
+        found[0] += f", {models[0].strip()}"
+    found.append(bench.renderer)
+    if bench.vtk and bench.vtk.version:
+        found.append(f"VTK {bench.vtk.version}")
+    found.append(f"load {os.getloadavg()[1]:.1f} at the end")
+    return ", ".join(f for f in found if f)
+
+
+def table(head, rows):
+    text = "| " + " | ".join(head) + " |\n|" + " --- |" * len(head) + "\n"
+    for row in rows:
+        text += "| " + " | ".join(row) + " |\n"
+    return text
+
+
+def rows_text(rows):
+    text = ""
+    for part in dict.fromkeys(row.part for row in rows):
+        text += f"\n### {part}\n\n"
+        text += table(("what", "measured", "bar", "", "how"),
+                      [(row.what, row.value_text(), row.bar_text(), row.reached, row.detail)
+                       for row in rows if row.part == part])
+    return text
+
+
+def summary(rows):
+    counts = {}
+    for row in rows:
+        counts[row.reached.strip("*")] = counts.get(row.reached.strip("*"), 0) + 1
+    return "Rows: " + ", ".join(f"{n} {name}" for name, n in counts.items()) + "."
+
+
+def points_table(points):
+    rows = []
+    for point in points:
+        said = point.said or {}
+        kind = f"{said['kind']} {said['value']:.2g}" if said.get("value") else "-"
+        rows.append((point.method.name, f"`{point.settings_text()}`", f"{point.time:.1f}",
+                     f"{100 * point.slack / 2:.1f} %", f"{point.error.rmse:.2e}", f"{point.error.most:.4f}", kind))
+    return table(("method", "setting", "CPU ms", "standard error", "RMSE", "greatest error", "says"), rows)
+
+
+def write_csv(results, path):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("setting", "pixels", "method", "knob", "options", "cpu_ms", "cpu_standard_error", "wall_ms",
+                         "rmse", "max", "said_kind", "said_value", "rounds"))
+        for setting, points in results.items():
+            for p in points:
+                said = p.said or {}
+                writer.writerow((setting.name, setting.size, p.method.name, f"{p.knob:.9g}", p.settings_text(),
+                                 f"{p.time:.2f}", f"{measure.standard_error(p.cpu) * p.time:.2f}",
+                                 f"{sorted(p.wall)[len(p.wall) // 2]:.2f}", f"{p.error.rmse:.4e}",
+                                 f"{p.error.most:.4e}", said.get("kind") or "", said.get("value") or "", len(p.cpu)))
+
+
+def write(bench, command, results, rows, series, folder):
+    """The page, the table and the charts, into a folder as docs/ is one."""
+    beside = os.path.join(folder, "speed-accuracy")
+    os.makedirs(beside, exist_ok=True)
+    write_csv(results, os.path.join(beside, "points.csv"))
+    text = HEAD.format(command=command, rounds=bench.rounds, machine=machine(bench))
+    text += "\n## What must be reached\n\n" + summary(rows) + "\n" + rows_text(rows)
+    if series and charts.available():
+        charts.scaling_chart(series, os.path.join(beside, "scaling.svg"))
+        text += "\n![CPU time as scenes grow](speed-accuracy/scaling.svg)\n"
+    text += "\n## Charts\n"
+    for setting, points in results.items():
+        text += f"\n### {setting.name}, {setting.size} x {setting.size} pixels\n\n"
+        if setting.title:
+            text += f"{setting.title[0].upper()}{setting.title[1:]}.\n\n"
+        if charts.available():
+            charts.setting_chart(setting, points, bench.truth(setting).error, os.path.join(folder, charts.names(setting)))
+            text += f"![CPU time against error]({charts.names(setting)})\n\n"
+        text += points_table(points)
+    with open(os.path.join(folder, "speed-accuracy.md"), "w", encoding="utf-8") as file:
+        file.write(text)
