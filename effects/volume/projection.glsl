@@ -117,7 +117,11 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
         before_t = t;
 #endif
     }
-#if !defined(renderStyle_type_AVERAGE)
+#if defined(renderStyle_type_AVERAGE)
+    /* weights in floats may add up to more than 1 */
+    intensity = min(intensity, 1.0);
+    intensity_alpha = min(intensity_alpha, 1.0);
+#else
     refine(span, origin_eye, direction_eye);
 #endif
 #if HAS_PARTS
