@@ -52,7 +52,7 @@ static bool same_flats(const plr_flat *a, const plr_flat *b) {
            same_lights(&a->global_lights, &b->global_lights) &&
            same_lights(&a->all_lights, &b->all_lights) && a->background == b->background &&
            a->navigation == b->navigation && a->fog.node == b->fog.node &&
-           a->tone_mapping == b->tone_mapping;
+           a->tone_mapping == b->tone_mapping && a->projective == b->projective;
 }
 
 /* A volume is left out while its space has no extent. */

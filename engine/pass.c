@@ -27,10 +27,14 @@ void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope,
 }
 
 const plr_placed *plr_pass_fog(const plr_view *view, const plr_scope *scope) {
-    for (; scope; scope = scope->outer)
-        if (scope->fog.node)
-            return &scope->fog;
-    return &view->flat.fog;
+    static const plr_placed none = {0};
+    const plr_placed *fog = &view->flat.fog;
+    for (bool found = false; scope && !found; scope = scope->outer)
+        if ((found = scope->fog.node != NULL))
+            fog = &scope->fog;
+    /* ISO/IEC 19775-1 V4 24.4.2: a range of 0 disables it */
+    bool off = fog->node && !(plr_node_number(fog->node, "visibilityRange") > 0);
+    return off ? &none : fog;
 }
 
 void plr_pass_find(plr_view *view, plr_pass *pass) {

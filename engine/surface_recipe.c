@@ -38,7 +38,8 @@ static void define_surface(plr_shape *shape) {
                    {"COLORS_MODULATE", model->mesh.colors && modulate},
                    {"HAS_NORMALS", model->mesh.normals != NULL},
                    {"TWO_SIDED", model->mesh.two_sided},
-                   {"OPAQUE", !model->blends}};
+                   {"OPAQUE", !model->blends},
+                   {"PROJECTIVE", shape->view->flat.projective}};
     static const char *const primitives[] = {[PLR_MESH_TRIANGLES] = "triangles",
                                              [PLR_MESH_LINES] = "lines",
                                              [PLR_MESH_POINTS] = "points"};

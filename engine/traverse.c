@@ -236,10 +236,19 @@ static void visit_volume(walk *w, plr_node *node, const plr_matrix *matrix) {
     *PLR_PUSH(w->arena, &w->flat->volumes) = (plr_leaf){node, *matrix, w->scope};
 }
 
+/* Whether it makes points whose last component is not 1. */
+static bool is_projective(const plr_matrix *matrix) {
+    const double *m = matrix->m;
+    return m[3] < 0 || m[3] > 0 || m[7] < 0 || m[7] > 0 || m[11] < 0 || m[11] > 0 || m[15] < 1 ||
+           m[15] > 1;
+}
+
 static void visit_shape(walk *w, plr_node *node, const plr_matrix *matrix) {
     const plr_field *render = plr_node_field(node, "render");
-    if (plr_node_child(node, "geometry") && (!render || plr_node_bool(node, "render")))
-        *PLR_PUSH(w->arena, &w->flat->shapes) = (plr_leaf){node, *matrix, w->scope};
+    if (!plr_node_child(node, "geometry") || (render && !plr_node_bool(node, "render")))
+        return;
+    *PLR_PUSH(w->arena, &w->flat->shapes) = (plr_leaf){node, *matrix, w->scope};
+    w->flat->projective = w->flat->projective || is_projective(matrix);
 }
 
 static void visit_effect(walk *w, plr_node *node, const plr_matrix *matrix) {

@@ -76,6 +76,7 @@ typedef struct plr_flat {
     bool has_eye; /* somebody looks: levels of detail and billboards are as he sees them */
     plr_matrix eye_to_world;
     bool depends_on_viewer; /* there are such */
+    bool projective;        /* some shape stands in a space that is no affine one */
 } plr_flat;
 
 /* Flattens the scene; everything is allocated in the arena. Nodes that cannot be drawn yet give a

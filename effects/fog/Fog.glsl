@@ -25,18 +25,23 @@ in vec4 fog_place;
 #define FOG_PLACE surface_vertex_eye
 #endif
 
-/* How much of the surface is seen through so much fog. */
+/* How much of the surface is seen through so much fog. The range is not 0: there is no such fog. */
 float fog_interpolant(float depth) {
-    if (visibilityRange <= 0.0) /* none */
-        return 1.0;
+#if defined(GIVEN_visibilityStart) || defined(fogType_EXPONENTIAL)
     if (depth >= visibilityRange)
         return 0.0;
+    float range = visibilityRange;
+#if defined(GIVEN_visibilityStart)
     depth = max(depth - visibilityStart, 0.0);
-    float range = visibilityRange - visibilityStart;
+    range -= visibilityStart;
+#endif
 #if defined(fogType_EXPONENTIAL)
     return exp(-depth / (range - depth));
 #else
     return 1.0 - depth / range;
+#endif
+#else
+    return max(1.0 - depth / visibilityRange, 0.0);
 #endif
 }
 
@@ -47,16 +52,16 @@ float fog_depth() {
 #elif HAS_FOG_COORD
     return max(fog_coordinate, 0.0);
 #else
-    return length(mat3(eyeToNode) * FOG_PLACE.xyz);
+    return length((eyeToNode * vec4(FOG_PLACE.xyz, 0.0)).xyz);
 #endif
 }
 
 #if VOLUME
 void PLUG_volume_fog(inout vec4 sample_color) {
-    sample_color.rgb = mix(color, sample_color.rgb, fog_interpolant(fog_depth()));
+    sample_color = vec4(mix(color, rgb_of(sample_color), fog_interpolant(fog_depth())), sample_color.a);
 }
 #else
 void PLUG_fog_apply(inout vec4 fragment_color, const in vec3 normal_eye) {
-    fragment_color.rgb = mix(color, fragment_color.rgb, fog_interpolant(fog_depth()));
+    fragment_color = vec4(mix(color, rgb_of(fragment_color), fog_interpolant(fog_depth())), fragment_color.a);
 }
 #endif

@@ -5,10 +5,17 @@ vec3 unit_or_zero(vec3 direction) {
     return direction * inversesqrt(dot(direction, direction) + 1e-37);
 }
 
-/* From a point in eye space to the viewer, length 1; in parallel projection the same for all. */
+/* The colour without its alpha. By its components: compilers then see that what one effect puts together the
+ * next takes apart, which they do not see through a swizzle. */
+vec3 rgb_of(vec4 color) {
+    return vec3(color.r, color.g, color.b);
+}
+
+/* From a point in eye space, which is not the eye's own, to the viewer, length 1; in parallel projection the
+ * same for all. */
 vec3 direction_to_viewer(vec4 vertex_eye) {
     float parallel = castle_ProjectionMatrix[3][3]; /* 1, or 0 in perspective */
-    return unit_or_zero(vec3(0.0, 0.0, parallel) - (1.0 - parallel) * vertex_eye.xyz);
+    return normalize(vec3(0.0, 0.0, parallel) - (1.0 - parallel) * vertex_eye.xyz);
 }
 
 /* ISO/IEC 19775-1 V4 17.2.2: diffuse_i + specular_i without I_i. `light_dir` is the unit vector to

@@ -8,7 +8,7 @@ vec3 physical_reflection(vec3 diffuse, vec3 specular, float alpha, vec4 vertex_e
     vec3 view = direction_to_viewer(vertex_eye);
     vec3 between = unit_or_zero(light_dir + view);
     float n_dot_v = abs(dot(normal_eye, view)), n_dot_h = max(dot(normal_eye, between), 0.0);
-    float v_dot_h = max(dot(view, between), 0.0);
+    float v_dot_h = dot(view, between); /* their angle is at most a right one */
     float a2 = alpha * alpha;
 
     /* B.3.2: D, Trowbridge-Reitz/GGX, and V = G / (4 |N.L| |N.V|), Smith */

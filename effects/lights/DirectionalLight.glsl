@@ -16,10 +16,15 @@ uniform float shadowIntensity = 1.0;
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
     vec3 light_dir = -light_direction_eye;
+#if PLUG_USED(light_scale) || defined(IN_SHADOW)
     float scale = 1.0;
+#endif
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
+#if PLUG_USED(light_scale)
+    light_color *= scale;
+#endif
     vec3 reflected = intensity * material_reflection(material, vertex_eye, normal_eye, light_dir);
 #if defined(IN_SHADOW)
     float shadow = 0.0;
@@ -30,5 +35,5 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
 #if !defined(NO_AMBIENT)
     reflected += ambientIntensity * material.ambient;
 #endif
-    lit.rgb += scale * light_color * reflected;
+    lit = vec4(rgb_of(lit) + light_color * reflected, lit.a);
 }

@@ -22,14 +22,19 @@ vec3 unrotate(vec3 v, vec4 rotation) {
 void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 normal_eye,
                     const in MaterialInfo material) {
     vec3 light_dir = normal_eye;
+#if PLUG_USED(light_scale)
     float scale = 1.0;
+#endif
     /* PLUG: light_scale (scale, normal_eye, light_dir) (scale, normal_eye, light_dir, vertex_eye) */
     vec3 light_color = color;
     /* PLUG: light_color (light_color, vertex_eye, light_dir) */
+#if PLUG_USED(light_scale)
+    light_color *= scale;
+#endif
     vec3 reflected = ambientIntensity * material.ambient;
 #if HAS_diffuseTexture && diffuseTexture_DIMENSIONS == 6
     vec3 from = unrotate(mat3(eyeToNode) * normal_eye, rotation);
     reflected += intensity * material.diffuse * texture(diffuseTexture, from).rgb;
 #endif
-    lit.rgb += scale * light_color * reflected;
+    lit = vec4(rgb_of(lit) + light_color * reflected, lit.a);
 }

@@ -54,5 +54,5 @@ void PLUG_add_light(inout vec4 lit, const in vec4 vertex_eye, const in vec3 norm
 #if !defined(NO_AMBIENT)
     reflected += ambientIntensity * material.ambient;
 #endif
-    lit.rgb += scale * light_color * reflected;
+    lit = vec4(rgb_of(lit) + scale * light_color * reflected, lit.a);
 }

@@ -5,9 +5,9 @@
 const float display_gamma = 2.2;
 
 void PLUG_texture_decode(inout vec4 texture_color) {
-    texture_color.rgb = pow(max(texture_color.rgb, 0.0), vec3(display_gamma));
+    texture_color = vec4(pow(max(rgb_of(texture_color), 0.0), vec3(display_gamma)), texture_color.a);
 }
 
 void PLUG_surface_output(inout vec4 fragment_color) {
-    fragment_color.rgb = linear_to_display(fragment_color.rgb);
+    fragment_color = vec4(linear_to_display(rgb_of(fragment_color)), fragment_color.a);
 }

@@ -14,7 +14,7 @@ vec3 filmic(vec3 x) {
 #endif
 
 void PLUG_surface_output(inout vec4 fragment_color) {
-    vec3 c = max(fragment_color.rgb * exposure, 0.0);
+    vec3 c = max(rgb_of(fragment_color) * exposure, 0.0);
 #if defined(mode_UNCHARTED)
     /* the talk's own exposure of 2, and white at 11.2 */
     c = filmic(2.0 * c) / filmic(vec3(11.2));
@@ -32,5 +32,5 @@ void PLUG_surface_output(inout vec4 fragment_color) {
     /* K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit */
     c = clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
 #endif
-    fragment_color.rgb = c;
+    fragment_color = vec4(c, fragment_color.a);
 }

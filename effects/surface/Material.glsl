@@ -41,8 +41,8 @@ void PLUG_surface_color(inout vec4 fragment_color) {
 void PLUG_surface_light(inout vec4 fragment_color) {
     vec4 lit = vec4(0.0, 0.0, 0.0, fragment_color.a);
 #if PLUG_USED(add_light)
-    material.diffuse = fragment_color.rgb;
-    material.ambient = ambient_part * fragment_color.rgb;
+    material.diffuse = rgb_of(fragment_color);
+    material.ambient = ambient_part * material.diffuse;
     /* PLUG: material_ambient (material.ambient) */
 #endif
 
@@ -52,7 +52,7 @@ void PLUG_surface_light(inout vec4 fragment_color) {
 #endif
     /* PLUG: material_light_ambient (light_ambient) */
 #if PLUG_USED(material_light_ambient)
-    lit.rgb += light_ambient;
+    lit = vec4(rgb_of(lit) + light_ambient, lit.a);
 #endif
 
     /* PLUG: add_light (lit, surface_vertex_eye, surface_normal_eye, material) (lit, surface_vertex_eye, surface_normal_eye, material, direction_to_viewer(surface_vertex_eye)) */
@@ -61,6 +61,5 @@ void PLUG_surface_light(inout vec4 fragment_color) {
     vec3 emissive = emissiveColor;
     /* PLUG: material_back_emissive (emissive) */
     /* PLUG: material_emissive (emissive) */
-    lit.rgb += emissive;
-    fragment_color = lit;
+    fragment_color = vec4(rgb_of(lit) + emissive, lit.a);
 }

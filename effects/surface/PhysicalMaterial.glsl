@@ -51,8 +51,9 @@ void PLUG_surface_light(inout vec4 fragment_color) {
     float metal = clamp(metal_rough.x, 0.0, 1.0);
     float rough = clamp(metal_rough.y, 0.0, 1.0);
     material.ambient = vec3(0.0);
-    material.diffuse = fragment_color.rgb * (1.0 - metal);
-    material.specular = mix(vec3(0.04), fragment_color.rgb, metal);
+    vec3 base = rgb_of(fragment_color);
+    material.diffuse = base * (1.0 - metal);
+    material.specular = mix(vec3(0.04), base, metal);
     material.alpha = max(rough * rough, 0.001); /* a perfect mirror shows no point of light */
 #endif
 
@@ -62,6 +63,5 @@ void PLUG_surface_light(inout vec4 fragment_color) {
     vec3 emissive = emissiveColor;
     /* PLUG: material_back_emissive (emissive) */
     /* PLUG: material_emissive (emissive) */
-    lit.rgb += emissive;
-    fragment_color = lit;
+    fragment_color = vec4(rgb_of(lit) + emissive, lit.a);
 }

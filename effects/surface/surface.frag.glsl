@@ -44,10 +44,14 @@ void main() {
 
     /* late: what is cut away must not spoil the derivatives of what is beside it */
     /* PLUG: surface_clip (surface_vertex_eye) */
+#if OPAQUE && !PLUG_USED(fragment_end)
+    /* a surface that does not blend covers its pixels, whatever an effect writes */
+    plugray_FragColor = vec4(rgb_of(fragment_color), 1.0);
+#else
     plugray_FragColor = fragment_color;
     /* PLUG: fragment_end (plugray_FragColor) */
 #if OPAQUE
-    /* a surface that does not blend covers its pixels, whatever an effect writes */
     plugray_FragColor.a = 1.0;
+#endif
 #endif
 }

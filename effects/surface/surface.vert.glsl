@@ -26,7 +26,12 @@ void main() {
     /* PLUG: vertex_eye_space_extended (vertex_eye, normal_eye, normal_object) */
 
 #if READS(castle_vertex_eye)
+#if PROJECTIVE || PLUG_USED(vertex_object_space_change) || PLUG_USED(vertex_object_space) ||        \
+    PLUG_USED(vertex_eye_space) || PLUG_USED(vertex_eye_space_extended)
     castle_vertex_eye = vertex_eye / vertex_eye.w;
+#else
+    castle_vertex_eye = vertex_eye; /* its last component is 1 */
+#endif
 #endif
 #if READS(castle_normal_eye)
     castle_normal_eye = normal_eye;

@@ -91,6 +91,7 @@ void PLUG_texture_stage(inout vec4 fragment_color, const in vec4 primary) {
 }
 #else
 void PLUG_surface_texture(inout vec4 fragment_color) {
-    fragment_color *= find_texture_color();
+    vec4 texture_color = find_texture_color();
+    fragment_color = vec4(rgb_of(fragment_color) * texture_color.rgb, fragment_color.a * texture_color.a);
 }
 #endif
