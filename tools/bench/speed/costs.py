@@ -188,11 +188,12 @@ def by_hand_scene(volume, size, step):
     highs = [v for v, alpha in volume.opacity if v / volume.top > max(visible)]
     low = max(lows) / volume.top if lows else -1
     high = min(highs) / volume.top if highs else 2
-    clamp = "repeatS FALSE repeatT FALSE"
+    modes = " ".join(f'boundaryMode{axis} "CLAMP_TO_EDGE"' for axis in "STR")
+    plain = f'textureProperties TextureProperties {{ minificationFilter "LINEAR" magnificationFilter "LINEAR" {modes} }}'
     return scenes.viewpoint(volume.side, False), f'''Shape {{ appearance Appearance {{ shaders ComposedShader {{
 language "GLSL"
-initializeOnly SFNode voxels ImageTexture3D {{ url "{volume.name}.nrrd" {clamp} repeatR FALSE }}
-initializeOnly SFNode transferFunction ImageTexture {{ url "{volume.name}-function.nrrd" {clamp} }}
+initializeOnly SFNode voxels ImageTexture3D {{ url "{volume.name}.nrrd" {plain} }}
+initializeOnly SFNode transferFunction ImageTexture {{ url "{volume.name}-function.nrrd" {plain} }}
 initializeOnly SFMatrix4f eyeToLocal {matrix}
 initializeOnly SFVec3f dimensions {volume.side} {volume.side} {volume.side}
 initializeOnly SFVec4f viewport 0 0 {size} {size}
@@ -236,8 +237,12 @@ def by_hand(bench, progress):
     apart = max(abs(a - b) for i, (a, b) in enumerate(zip(*pictures)) if i % 4 != 3)
     for file in files:
         os.remove(file)
+    part = "Composed raycaster against one written by hand, CPU time"
+    if apart > 1e-3:
+        return [rows.Row(part, "ml64", None, 1.02, greater=False,
+                         detail=f"they do not draw the same: colours are up to {apart:.2g} apart")]
     ratio, spread = paired(hand, composed, 2 if bench.quick else 8, progress, 0.5)
-    return [rows.Row("Composed raycaster against one written by hand, CPU time", f"ml64, steps of {step:g} voxel",
+    return [rows.Row(part, f"ml64, steps of {step:g} voxel",
                      ratio, 1.02, greater=False, noise=2 * spread,
                      detail=f"two standard errors {2 * spread:.4f}; composed "
                      f"{composed.time:.1f} ms, by hand {hand.time:.1f} ms; colours at most {apart:.1e} apart")]
