@@ -106,11 +106,11 @@ def oblique_box(dimensions=(0.64, 0.5, 0.56), size=(5, 4, 6), place=OBLIQUE):
     return Box(dimensions, size, *centres(size), place)
 
 
-SLOPE = (0.37, -0.29, -1.31)
+RAMP_GRADIENT = (0.37, -0.29, -1.31)
 
 
 def ramp_value(position):
-    return 0.5 + sum(a * x for a, x in zip(SLOPE, position))
+    return 0.5 + sum(a * x for a, x in zip(RAMP_GRADIENT, position))
 
 
 def on_ramp(chord):
@@ -133,6 +133,7 @@ class Case:
         self.name, self.content, self.truth, self.box = name, content, truth, box
         self.files, self.orders, self.steps = files or {}, orders or {}, tuple(steps)
         self.bound, self.tolerance = bound, tolerance or {}
+        self.beside = (0.0,) * 4  # what rays show that miss it
 
     def expected(self, view, pixels):
         """The pixels' colours, row by row; also how many rays meet the volume, and the longest."""
@@ -140,7 +141,7 @@ class Case:
         for y in range(pixels):
             for x in range(pixels):
                 chord = self.box.chord(view.ray(x, y, pixels))
-                colors.append(self.truth(chord) if chord else (0.0,) * 4)
+                colors.append(self.truth(chord) if chord else self.beside)
                 if chord and colors[-1]:
                     met += 1
                     longest = max(longest, chord.length)

@@ -76,21 +76,23 @@ class Chord:
     def at(self, way):
         return tuple(e + way * d for e, d in zip(self.entry, self.direction))
 
-    def behind(self, way):
-        """What is left when it begins later."""
-        return Chord(self.at(way), self.direction, self.length - way, self.distance + way / self.speed,
-                     self.speed)
+    def part(self, start, end):
+        """Between two lengths of the ray outside."""
+        way = (start - self.distance) * self.speed
+        return Chord(self.at(way), self.direction, (end - start) * self.speed, start, self.speed)
 
-    def before(self, way):
-        return Chord(self.entry, self.direction, way, self.distance, self.speed)
+    def end(self):
+        return self.distance + self.length / self.speed
 
 
 class Box:
     """A box of `size` voxels, of which what lies between `low` and `high` (fractions) is drawn."""
 
-    def __init__(self, dimensions=(1, 1, 1), size=(1, 1, 1), low=(0, 0, 0), high=(1, 1, 1), place=None):
+    def __init__(self, dimensions=(1, 1, 1), size=(1, 1, 1), low=(0, 0, 0), high=(1, 1, 1), place=None,
+                 span=None):
         self.dimensions, self.size, self.low, self.high = dimensions, size, low, high
         self.place = place or Transform()
+        self.span = span  # where a ray (origin, direction) begins and ends, if not at the eye and never
 
     def voxel(self):
         """The length that --step counts in: the geometric mean of a voxel's sides."""
@@ -112,7 +114,7 @@ class Box:
         origin, direction = back.point(ray[0]), back.vector(ray[1])
         speed = math.sqrt(dot(direction, direction))
         direction = unit(direction)
-        enter, leave = 0.0, math.inf
+        enter, leave = (speed * t for t in (self.span(*ray) if self.span else (0.0, math.inf)))
         for o, d, a, b in zip(origin, direction, self.own(self.low), self.own(self.high)):
             if abs(d) < 1e-14:
                 if not a <= o <= b:

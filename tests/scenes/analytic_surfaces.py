@@ -4,8 +4,9 @@
 import math
 import random
 
-from analytic_data import (EXACT, HALVINGS, KINKED, MIDPOINT, OBLIQUE, Case, Sheet, add_cases, check_backends,
-                           check_order, greatest_error, image3d, offered, oblique_box, on_ramp, ramp_value)
+from analytic_data import (EXACT, HALVINGS, KINKED, MIDPOINT, OBLIQUE, RAMP_GRADIENT, Case, Sheet,
+                           add_cases, check_backends, check_order, image3d, oblique_box, on_ramp,
+                           ramp_value)
 from analytic_grid import Grid
 from analytic_rays import Box, Parallel, Transform, centres, words
 from harness import CaseError, Suite, dot, unit
@@ -102,7 +103,7 @@ def plane_case(value, place, name):
         s0, s1, length = on_ramp(chord)
         if not min(s0, s1) < value < max(s0, s1):
             return (0.0,) * 4
-        return shown(box, chord, (value - s0) / (s1 - s0) * length, (0.37, -0.29, -1.31))
+        return shown(box, chord, (value - s0) / (s1 - s0) * length, RAMP_GRADIENT)
 
     return Case(f"V15 plane, {name}", surface_content(box, image3d("plane.nrrd"), value, DEPTH), truth, box,
                 {"plane.nrrd": grid.file()}, orders=ALWAYS, steps=(0.3, 1.1, 3.7))
