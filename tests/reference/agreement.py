@@ -69,4 +69,89 @@ def perspective():
             reference.camera(position, turn, 0.7), 1e-4)
 
 
+HARD = [(0, 0, 255, 0), (255, 200, 0, 0), (0, 255, 0, 200), (255, 0, 90, 255), (90, 90, 255, 255)]
+
+
+def placed(content, matrix_of):
+    """In a Transform, and the same as a matrix."""
+    fields = " ".join(f"{name} {words(value)}" for name, value in matrix_of.items())
+    return f"Transform {{ {fields} children [\n{content}] }}\n", reference.transform(**matrix_of)
+
+
+@suite.case
+def overlapping():
+    "two volumes, turned against each other, with units of their own, an opaque wall through both"
+    size, grids = (24, 30), ((4, 5, 3), (6, 3, 4))
+    numbers = [numbers_of(seed, grid) for seed, grid in zip((2, 3), grids)]
+    places = ({"translation": (0.2, 0.1, 0), "rotation": (1, 2, 0.5, 0.7)},
+              {"translation": (-0.1, 0, 0.3), "rotation": (0.3, -1, 0.2, 1.9), "scale": (1.3, 0.8, 1),
+               "scaleOrientation": (1, 1, 0, 0.5)})
+    styles = (SOFT, SOFT[::-1])
+    units = (0.4, 0)
+    one, two = (placed(volume(voxels(1, grid, data), opacity_map(style),
+                              fields=f"opacityUnitDistance {unit}"), place)
+                for grid, data, style, unit, place in zip(grids, numbers, styles, units, places))
+    wall, wall_matrix = placed(
+        "Shape { appearance Appearance { material UnlitMaterial { emissiveColor .2 .9 .6 } } "
+        "geometry IndexedFaceSet { solid FALSE coordIndex [0 1 2 3 -1] coord Coordinate { point "
+        "[-.2 -1 -.1, .6 -1 -.1, .6 1 -.1, -.2 1 -.1] } } }\n", {"rotation": (0, 1, 0, 0.5)})
+    box = (-0.9, -0.9, 0.9, 0.9)
+    text = scene(f"OrthoViewpoint {{ position 0 0 5 fieldOfView {words(box)} }}\n", NO_HEADLIGHT,
+                 one[0], two[0], wall)
+    solid = reference.parallelogram((-0.2, -1, -0.1), (0.8, 0, 0), (0, 2, 0), (0.2, 0.9, 0.6),
+                                    wall_matrix)
+    compare(text, size,
+            [reference.volume(grid, data, transfer=fractions(style), matrix=part[1], opacity_unit=unit)
+             for grid, data, style, unit, part in zip(grids, numbers, styles, units, (one, two))],
+            reference.camera((0, 0, 5), fieldOfView=box), 1e-4, opaque=[solid])
+
+
+@suite.case
+def cut():
+    "crop box, clip plane, near and far distance, background"
+    size, grid = (20, 20), (4, 4, 4)
+    numbers = numbers_of(7, grid)
+    fields = ("cropMin .1 0 .2 cropMax 1 .8 1 clipPlanes ClipPlane { plane 1 .5 -.2 .1 }")
+    view = "position .3 .2 1.6 fieldOfView .6 nearDistance 1.3 farDistance 1.9"
+    text = scene(f"Viewpoint {{ {view} }}\n", NO_HEADLIGHT,
+                 "Background { skyColor .2 .3 .6 transparency .25 }\n",
+                 volume(voxels(1, grid, numbers), opacity_map(SOFT), fields=fields))
+    compare(text, size,
+            [reference.volume(grid, numbers, transfer=fractions(SOFT),
+                              crop=((0.1, 0, 0.2), (1, 0.8, 1)), clip_planes=[(1, 0.5, -0.2, 0.1)])],
+            reference.camera((0.3, 0.2, 1.6), fieldOfView=0.6, nearDistance=1.3, farDistance=1.9),
+            1e-4, background=(0.2, 0.3, 0.6, 0.75))
+
+
+@suite.case
+def opaque():
+    "functions up to alpha 1: short steps come near, the nearer the shorter"
+    size, grid = (20, 20), (3, 4, 3)
+    numbers = numbers_of(5, grid)
+    position = (0.4, 0.3, 2.2)
+    text = scene(f"Viewpoint {{ position {words(position)} fieldOfView 0.5 }}\n", NO_HEADLIGHT,
+                 volume(voxels(1, grid, numbers), opacity_map(HARD)))
+    compare(text, size, [reference.volume(grid, numbers, transfer=fractions(HARD))],
+            reference.camera(position, fieldOfView=0.5), 3e-3)
+
+
+@suite.case
+def segments():
+    "labels and a function for each segment"
+    size, grid = (22, 18), (4, 3, 5)
+    numbers = numbers_of(8, grid)
+    labels = bytes(n % 4 for n in numbers_of(9, grid))
+    position, turn = (1.2, 0.5, 1.7), (-0.3, 0.8, 0.1, 0.65)
+    third = SOFT[1:4]
+    text = scene(f"Viewpoint {{ position {words(position)} orientation {words(turn)} fieldOfView 0.7 }}\n",
+                 NO_HEADLIGHT,
+                 f"SegmentedVolumeData {{ voxels {voxels(1, grid, numbers)} "
+                 f"segmentIdentifiers {voxels(1, grid, labels)} segmentEnabled [ TRUE FALSE TRUE ] "
+                 f"renderStyle [ {opacity_map(SOFT)} {opacity_map(SOFT)} {opacity_map(third)} ] }}\n")
+    compare(text, size,
+            [reference.volume(grid, numbers, labels=(grid, labels, "u8"),
+                              segments=[fractions(SOFT), reference.HIDDEN, fractions(third)])],
+            reference.camera(position, turn, 0.7), 6e-3)
+
+
 suite.run()

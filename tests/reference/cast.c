@@ -49,12 +49,15 @@ static void join(double *one, double *other) {
         *other = *one;
 }
 
-static int begin(const ref_scene *scene, const ray *r, double limit, ref_walk *walks) {
+static int begin(ref_sum *sum, const ray *r, double limit, ref_walk *walks) {
+    const ref_scene *scene = sum->scene;
     int count = 0;
     for (size_t i = 0; i < scene->volume_count; i++) {
         ref_walk *walk = &walks[count];
         const ref_volume *volume = &scene->volumes[i];
-        if (!ref_walk_begin(walk, volume, r->origin, r->way, r->start, limit))
+        bool met = ref_walk_begin(walk, volume, r->origin, r->way, r->start, limit);
+        sum->is_uncertain |= walk->is_uncertain;
+        if (!met)
             continue;
         double length = 0;
         for (int k = 0; k < 3; k++) {
@@ -113,19 +116,25 @@ static void put_behind(ref_sum *sum, const double color[3], double alpha) {
 ref_color ref_cast(const ref_scene *scene, ref_pixel pixel) {
     ray r = make_ray(scene, pixel);
     double solid[3];
-    double limit = ref_solids_meet(scene, r.origin, r.way, r.start, r.limit, solid);
+    bool uncertain;
+    double limit = ref_solids_meet(scene, r.origin, r.way, r.start, r.limit, solid, &uncertain);
     ref_color result = {{0}, INFINITY};
     ref_walk *walks = calloc(scene->volume_count + 1, sizeof *walks);
     ref_walk **seen = calloc(scene->volume_count + 1, sizeof(ref_walk *));
     if (walks && seen) {
         ref_sum sum = {.scene = scene, .walks = seen};
-        go(&sum, walks, begin(scene, &r, limit, walks));
+        int count = begin(&sum, &r, limit, walks);
+        go(&sum, walks, count);
         if (limit < r.limit)
             put_behind(&sum, solid, 1);
         put_behind(&sum, scene->background, scene->background[3]);
         memcpy(result.rgba, sum.color, sizeof sum.color);
         result.rgba[3] = -expm1(-sum.depth);
+        for (int i = 0; i < count; i++)
+            sum.is_uncertain |= walks[i].is_uncertain;
         result.error = sum.is_out_of_memory ? INFINITY : sum.error;
+        if (sum.is_uncertain || uncertain)
+            result.error = fmax(result.error, 1);
         for (int k = 0; k < 3 && sum.may_end; k++)
             result.error = fmax(result.error, fabs(sum.may_color[k] - result.rgba[k]));
         if (sum.may_end)

@@ -467,6 +467,61 @@ def by_steps():
         suite.check("error bar", error < 1e-8, error)
 
 
+@suite.case
+def error_bars():
+    "error bars hold what they promise"
+    chance = random.Random(3)
+    size = (6, 5, 7)
+    numbers = [chance.random() for _ in range(210)]
+    rough = reference.texels([[chance.random() for _ in range(4)] for _ in range(40)])
+    camera = reference.camera((0.5, 0.4, 2), (-0.5, 0.6, 0, 0.3), 0.6)
+    for name, more in (("", {}), ("shaded", {"shading": reference.vtk_shading()})):
+        one = reference.volume(size, numbers, "f64", value_range=(0, 1), transfer=rough, opacity_unit=0.5,
+                               **more)
+        results = [reference.truth([one], camera, (16, 16), tolerance=t) for t in (1e-4, None, 1e-14)]
+        (best, _), (_, usual) = results[2], results[1]
+        for values, errors in results[:2]:
+            worst = max(abs(a - b) - 1e-13 - errors.data[i // 4]
+                        for i, (a, b) in enumerate(zip(values.data, best.data)))
+            suite.check(f"within {max(errors.data):.1e} {name}", worst <= 0, worst)
+        suite.check(f"small {name}", max(usual.data) < 1e-7, max(usual.data))
+
+
+@suite.case
+def undecided():
+    "where rounding decides on the whole pixel, the error bar says so"
+    wall = constant((1, 0, 0), math.inf)
+    labelled = reference.volume((2, 1, 1), [9, 9], labels=((2, 1, 1), [0, 1], "u8"), segments=[
+        reference.texels([(1, 0, 0, 1)]), reference.texels([(0, 1, 0, 1)])])
+    ball = [reference.sphere((0, 0, 0), 0.5, (0, 1, 0))]
+    for name, volumes, x, solids in (
+            ("beside", [wall], 0.6, ()), ("inside", [wall], 0.4, ()), ("face", [wall], 0.5, ()),
+            ("segments", [labelled], 0.0, ()), ("segment", [labelled], 0.1, ()),
+            ("ball", [], 0.5, ball), ("beside the ball", [], 0.51, ball)):
+        camera = reference.camera((x, 0, 10), fieldOfView=(-0.5, -0.5, 0.5, 0.5))
+        _, errors = reference.truth(volumes, camera, (1, 1), opaque=solids)
+        unsure = name in ("face", "segments", "ball")
+        suite.check(name, (errors.at(0, 0) == 1) == unsure, errors.at(0, 0))
+
+
+@suite.case
+def faulty_jobs():
+    "what is wrong with a job is said"
+    one = reference.volume((2, 1, 1), [1, 2])
+    for name, words, volume in (
+            ("unknown field", "colour", dict(one, colour=1)),
+            ("too short", "too short", dict(one, size=[3, 1, 1])),
+            ("no such type", "'type'", dict(one, type="u8", labels={"file": "x", "type": "i9"})),
+            ("singular matrix", "singular", dict(one, matrix=[0] * 16)),
+            ("falling points", "ascending",
+             dict(one, transfer=reference.points([(1, 0, 0, 0, 0), (0, 1, 1, 1, 1)])))):
+        try:
+            reference.truth([volume], FRONT, (1, 1))
+            suite.check(name, False)
+        except reference.Failed as fault:
+            suite.check(name, words in str(fault), fault)
+
+
 # ---- labels, styles, pixels
 
 

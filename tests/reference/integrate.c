@@ -60,7 +60,7 @@ static double extrapolated(double table[LEVELS][4], double before[LEVELS][4], in
             table[j][k] = table[j - 1][k] + (table[j - 1][k] - before[j - 1][k]) / (scale - 1);
     }
     for (int k = 0; k < 4; k++)
-        worst = fmax(worst, fabs(table[level][k] - table[level - 1][k]));
+        worst = fmax(worst, fabs(table[level][k] - before[level - 1][k]));
     return worst;
 }
 

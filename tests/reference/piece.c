@@ -10,7 +10,7 @@
 static const double OPAQUE = 1e-13;
 static const double UNCERTAIN = 1e-10;
 
-static void add_cut(ref_sum *sum, double t, const ref_walk *walk, const ref_interval *interval) {
+void ref_sum_cut(ref_sum *sum, double t, const ref_walk *walk, const ref_interval *interval) {
     if (sum->cut_count == sum->cut_room) {
         size_t room = sum->cut_room ? 2 * sum->cut_room : 64;
         ref_cut *cuts = realloc(sum->cuts, room * sizeof *cuts);
@@ -26,11 +26,12 @@ static void add_cut(ref_sum *sum, double t, const ref_walk *walk, const ref_inte
 
 /* The knots that a volume's value passes, and where it turns. */
 static void add_cuts(ref_sum *sum, const ref_walk *walk, double from, double to) {
-    double ends[4] = {from - walk->base}, turns[2];
+    double ends[4] = {from - walk->base}, turns[2] = {0};
     int count = ref_cubic_turns(walk->value, from - walk->base, to - walk->base, turns);
     for (int i = 0; i < count; i++) {
         ends[i + 1] = turns[i];
-        add_cut(sum, turns[i] + walk->base, NULL, NULL);
+        if (walk->transfer->may_be_opaque)
+            ref_sum_cut(sum, turns[i] + walk->base, NULL, NULL);
     }
     ends[count + 1] = to - walk->base;
     for (int i = 0; i <= count; i++) {
@@ -43,7 +44,7 @@ static void add_cuts(ref_sum *sum, const ref_walk *walk, double from, double to)
             if (interval->from <= fmin(a, b))
                 continue;
             double u = ref_cubic_root(walk->value, interval->from, ends[i], ends[i + 1]);
-            add_cut(sum, u + walk->base, walk, interval);
+            ref_sum_cut(sum, u + walk->base, walk, interval);
         }
     }
 }
@@ -140,10 +141,34 @@ static void end(ref_sum *sum, double t) {
     sum->is_ended = true;
 }
 
+/* One piece, cut once more where light makes a colour as bright as can be. */
+static void integrate(ref_sum *sum, double from, double to) {
+    enum {
+        MOST = 64
+    };
+    double cuts[MOST + 1];
+    int count = 0;
+    for (int w = 0; w < sum->count; w++)
+        count += ref_light_limits(sum->walks[w], from, to, cuts + count, MOST - count);
+    for (int i = 1; i < count; i++)
+        for (int j = i; j > 0 && cuts[j] < cuts[j - 1]; j--) {
+            double larger = cuts[j - 1];
+            cuts[j - 1] = cuts[j];
+            cuts[j] = larger;
+        }
+    cuts[count] = to;
+    for (int i = 0; i <= count; from = cuts[i++])
+        if (cuts[i] > from)
+            ref_sum_integrate(sum, from, cuts[i]);
+}
+
 void ref_sum_add(ref_sum *sum, double from, double to) {
     sum->cut_count = 0;
-    for (int w = 0; w < sum->count; w++)
+    for (int w = 0; w < sum->count; w++) {
         add_cuts(sum, sum->walks[w], from, to);
+        if (sum->walks[w]->volume->shading.used)
+            ref_light_cuts(sum, sum->walks[w], from, to);
+    }
     if (sum->cut_count > 1)
         qsort(sum->cuts, sum->cut_count, sizeof *sum->cuts, earlier);
     double at = from;
@@ -160,7 +185,7 @@ void ref_sum_add(ref_sum *sum, double from, double to) {
                 end(sum, at);
                 return;
             }
-            ref_sum_integrate(sum, at, next);
+            integrate(sum, at, next);
         }
         at = next;
     }

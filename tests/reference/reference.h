@@ -29,6 +29,7 @@ typedef struct ref_transfer {
     ref_interval *intervals; /* ascending, without gaps; cover more than 0 to 1 */
     int count;
     int *seen_before; /* how many of the intervals before are not clear */
+    bool may_be_opaque;
 } ref_transfer;
 
 /* Points in ascending order; alpha is multiplied by `opacity`, RGB by `tint`, then all are clamped.
@@ -155,9 +156,10 @@ ref_color ref_cast(const ref_scene *scene, ref_pixel pixel);
 /* Casts many on several threads. False: no memory or threads. */
 bool ref_cast_all(const ref_scene *scene, const ref_pixel *pixels, size_t count, ref_color *colors,
                   int threads);
-/* The nearest solid in (start, limit) along a ray; returns its distance, `limit` for none. */
+/* The nearest solid in (start, limit) along a ray; returns its distance, `limit` for none.
+ * `uncertain`: rounding decides whether one is met. */
 double ref_solids_meet(const ref_scene *scene, const double origin[3], const double way[3],
-                       double start, double limit, double color[3]);
+                       double start, double limit, double color[3], bool *uncertain);
 
 /* ---- Matrices, by rows ---- */
 

@@ -124,8 +124,10 @@ bool ref_transfer_make(ref_transfer *transfer, const ref_point *points, size_t c
     transfer->seen_before = calloc((size_t)transfer->count + 1, sizeof *transfer->seen_before);
     if (!transfer->seen_before)
         return false;
-    for (int i = 0; i < transfer->count; i++)
+    for (int i = 0; i < transfer->count; i++) {
+        transfer->may_be_opaque |= transfer->intervals[i].clearness <= 1e-15;
         transfer->seen_before[i + 1] = transfer->seen_before[i] + !transfer->intervals[i].is_clear;
+    }
     return true;
 }
 

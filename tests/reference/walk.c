@@ -39,14 +39,15 @@ bool ref_steps_pass(ref_steps *steps, double t) {
     return passed;
 }
 
-static void cut(double at, double growth, double *enter, double *leave) {
-    /* keeps where at + t growth >= 0 */
+/* Keeps where at + t growth >= 0. Returns whether rounding decides on all of the ray. */
+static bool cut(double at, double growth, double *enter, double *leave) {
     if (growth > 0)
         *enter = fmax(*enter, -at / growth);
     else if (growth < 0)
         *leave = fmin(*leave, -at / growth);
     else if (at < 0)
         *leave = -INFINITY;
+    return growth == 0 && fabs(at) < ROUNDING;
 }
 
 bool ref_walk_begin(ref_walk *walk, const ref_volume *volume, const double origin[3],
@@ -60,11 +61,13 @@ bool ref_walk_begin(ref_walk *walk, const ref_volume *volume, const double origi
                   volume->reference_length;
     walk->enter = start;
     walk->leave = limit;
+    bool grazes = false;
     for (int i = 0; i < 3; i++) {
         double at = place[i] / volume->dimensions[i] + 0.5;
         double growth = along[i] / volume->dimensions[i];
-        cut(at - fmax(volume->crop_min[i], 0), growth, &walk->enter, &walk->leave);
-        cut(fmin(volume->crop_max[i], 1) - at, -growth, &walk->enter, &walk->leave);
+        double low = fmax(volume->crop_min[i], 0), high = fmin(volume->crop_max[i], 1);
+        grazes |= cut(at - low, growth, &walk->enter, &walk->leave);
+        grazes |= cut(high - at, -growth, &walk->enter, &walk->leave);
         walk->voxels.start[i] = at * volume->voxels.size[i] - 0.5;
         walk->voxels.way[i] = growth * volume->voxels.size[i];
         walk->labels.start[i] = at * volume->labels.size[i];
@@ -72,10 +75,13 @@ bool ref_walk_begin(ref_walk *walk, const ref_volume *volume, const double origi
     }
     for (size_t k = 0; k < volume->plane_count; k++) {
         const double *p = volume->planes[k];
-        cut(p[0] * origin[0] + p[1] * origin[1] + p[2] * origin[2] + p[3],
-            p[0] * way[0] + p[1] * way[1] + p[2] * way[2], &walk->enter, &walk->leave);
+        grazes |= cut(p[0] * origin[0] + p[1] * origin[1] + p[2] * origin[2] + p[3],
+                      p[0] * way[0] + p[1] * way[1] + p[2] * way[2], &walk->enter, &walk->leave);
     }
-    if (!(walk->enter < walk->leave))
+    /* through an edge, or along a face */
+    double chord = walk->leave - walk->enter;
+    walk->is_uncertain = grazes || fabs(chord) < ROUNDING * (1 + fabs(walk->enter));
+    if (!(chord > 0))
         return false;
     /* faces of cells that coincide with the entry, or the exit, are none */
     double first = walk->enter + ROUNDING * (walk->leave - walk->enter);
@@ -108,12 +114,21 @@ static double mapped(const ref_volume *volume, double stored) {
     return fmin(fmax((stored - low) / (high - low) + volume->change, 0), 1);
 }
 
-static const ref_transfer *transfer_here(const ref_walk *walk) {
+static const ref_transfer *transfer_here(ref_walk *walk) {
     const ref_volume *volume = walk->volume;
     if (!volume->labels.data)
         return &volume->transfers[0];
     double label = ref_grid_at(&volume->labels, walk->labels.cell);
     double last = (double)(volume->transfer_count - 1);
+    for (int i = 0; i < 3; i++) {
+        /* along the face between two labels */
+        double at = walk->labels.start[i];
+        int beside[3] = {walk->labels.cell[0], walk->labels.cell[1], walk->labels.cell[2]};
+        if (walk->labels.way[i] != 0 || fabs(at - round(at)) > ROUNDING)
+            continue;
+        beside[i] += at < beside[i] + 0.5 ? -1 : 1;
+        walk->is_uncertain |= ref_grid_at(&volume->labels, beside) != label;
+    }
     return &volume->transfers[(size_t)fmin(fmax(label, 0), last)];
 }
 
@@ -177,28 +192,16 @@ void ref_walk_pass(ref_walk *walk, double t) {
         walk->is_read = false;
 }
 
-/* ambient c + diffuse |n.l| c + specular |n.h|^power; light and viewer are in one place, h = l. */
-static void shade(const ref_walk *walk, double t, double color[3]) {
-    const ref_shading *shading = &walk->volume->shading;
-    double n[3], length = 0, facing = 0;
-    for (int k = 0; k < 3; k++) {
-        n[k] = ref_cubic_at(walk->gradient[k], t - walk->base);
-        length += n[k] * n[k];
-        facing += n[k] * walk->to_light[k];
-    }
-    facing = length > 0 ? fmin(fabs(facing) / sqrt(length), 1) : 0;
-    double shine = facing > 0 ? shading->specular * pow(facing, shading->power) : 0;
-    for (int k = 0; k < 3; k++) {
-        color[k] = (shading->ambient + shading->diffuse * facing) * color[k] + shine;
-        if (!shading->unclamped)
-            color[k] = fmin(fmax(color[k], 0), 1);
-    }
+void ref_interval_color(const ref_interval *interval, double value, double color[3]) {
+    for (int k = 0; k < 3; k++)
+        color[k] = interval->base[k] + interval->slope[k] * (value - interval->anchor);
 }
 
 void ref_walk_color(const ref_walk *walk, double t, double value, double color[3]) {
-    const ref_interval *i = walk->interval;
-    for (int k = 0; k < 3; k++)
-        color[k] = i->base[k] + i->slope[k] * (value - i->anchor);
-    if (walk->volume->shading.used)
-        shade(walk, t, color);
+    ref_interval_color(walk->interval, value, color);
+    if (!walk->volume->shading.used)
+        return;
+    ref_light(walk, t, color);
+    for (int k = 0; k < 3 && !walk->volume->shading.unclamped; k++)
+        color[k] = fmin(color[k], 1);
 }

@@ -22,9 +22,10 @@ typedef struct ref_walk {
     double enter, leave;
     double speed; /* reference lengths in own coordinates, for one of t */
     ref_steps voxels, labels;
-    bool is_read;  /* what follows holds for the present cell */
-    bool is_clear; /* nothing is seen in it */
-    double base;   /* where u of the cubics is 0 */
+    bool is_uncertain; /* rounding decides whether it is met, or in which segment */
+    bool is_read;      /* what follows holds for the present cell */
+    bool is_clear;     /* nothing is seen in it */
+    double base;       /* where u of the cubics is 0 */
     double value[4];
     double gradient[3][4]; /* in the world */
     const ref_transfer *transfer;
@@ -40,6 +41,7 @@ double ref_walk_value(const ref_walk *walk, double t);
 double ref_walk_next(const ref_walk *walk);
 void ref_walk_read(ref_walk *walk, double t);
 void ref_walk_pass(ref_walk *walk, double t);
+void ref_interval_color(const ref_interval *interval, double value, double color[3]);
 /* The colour of a value, lit. */
 void ref_walk_color(const ref_walk *walk, double t, double value, double color[3]);
 
@@ -62,9 +64,19 @@ typedef struct ref_sum {
     ref_cut *cuts;
     size_t cut_count, cut_room;
     bool is_out_of_memory;
+    bool is_uncertain;   /* the pixel may be quite another */
     bool may_end;        /* it almost did: */
     double may_color[3]; /* what the pixel would then be */
 } ref_sum;
+
+void ref_sum_cut(ref_sum *sum, double t, const ref_walk *walk, const ref_interval *interval);
+
+/* Light on a colour, which may get brighter than 1. */
+void ref_light(const ref_walk *walk, double t, double color[3]);
+/* Cuts where normals turn over or turn fast. */
+void ref_light_cuts(ref_sum *sum, const ref_walk *walk, double from, double to);
+/* Where a channel passes 1, in no order. */
+int ref_light_limits(const ref_walk *walk, double from, double to, double *cuts, int most);
 
 /* Adds what the walks have between two faces of cells. */
 void ref_sum_add(ref_sum *sum, double from, double to);
