@@ -2,6 +2,7 @@
 """Writes GLSL files into one C table, the one that plr_effects_file reads.
 
 usage: embed.py OUTPUT ROOT FILE...
+       embed.py --text NAME OUTPUT FILE    any one file as a C string of that name
 
 Paths in the table are relative to ROOT, sorted, with forward slashes."""
 import os
@@ -48,7 +49,16 @@ def read(path):
     return data
 
 
+def write_text(name, output, path):
+    with open(output, "w", encoding="ascii") as file:
+        file.write("/* Made by tools/embed.py. */\nextern const char %s[];\n" % name)
+        file.write(array(name, read(path)).replace("static ", "", 1))
+
+
 def main():
+    if sys.argv[1] == "--text":
+        write_text(*sys.argv[2:])
+        return
     output, root, paths = sys.argv[1], sys.argv[2], sys.argv[3:]
     table = sorted((os.path.relpath(path, root).replace(os.sep, "/"), path) for path in paths)
     text, rows = HEAD, []

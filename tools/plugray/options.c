@@ -29,7 +29,8 @@ typedef struct option_row {
 } option_row;
 
 #define ON(id) (1u << COMMAND_##id)
-#define SCENE_COMMANDS (ON(RENDER) | ON(DUMP) | ON(CHECK) | ON(PLUGS) | ON(INFO))
+#define DRAW_COMMANDS (ON(RENDER) | ON(CHART))
+#define SCENE_COMMANDS (DRAW_COMMANDS | ON(DUMP) | ON(CHECK) | ON(PLUGS) | ON(INFO))
 
 static const command_row commands[] = {
 #define COMMAND(id, name, operands, fewest, most, presence, summary)                               \
@@ -332,6 +333,27 @@ bool option_number(const tool_arguments *arguments, tool_option option, double a
     if (after > text && !*after && isfinite(*value) && *value > above && *value <= maximum)
         return true;
     usage_error(arguments, "%s takes a number above %g and at most %g, not '%s'",
+                options[option].name, above, maximum, text);
+    return false;
+}
+
+bool option_fraction(const tool_arguments *arguments, tool_option option, double above,
+                     double maximum, double *value) {
+    const char *text = option_value(arguments, option);
+    if (!text)
+        return true;
+    char *after;
+    double over = strtod(text, &after), under = 1;
+    bool read = after > text;
+    if (read && *after == '/') {
+        const char *second = after + 1;
+        under = strtod(second, &after);
+        read = after > second;
+    }
+    *value = over / under;
+    if (read && !*after && under > 0 && *value > above && *value <= maximum)
+        return true;
+    usage_error(arguments, "%s takes a number above %g and at most %g, or a fraction, not '%s'",
                 options[option].name, above, maximum, text);
     return false;
 }

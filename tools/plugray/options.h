@@ -68,6 +68,9 @@ bool option_integer(const tool_arguments *arguments, tool_option option, long mi
                     long *value);
 bool option_number(const tool_arguments *arguments, tool_option option, double above,
                    double maximum, double *value);
+/* The same of a number or a fraction, "1/255". */
+bool option_fraction(const tool_arguments *arguments, tool_option option, double above,
+                     double maximum, double *value);
 /* "AxB" or "A,B": two whole numbers from `minimum` to `maximum`. */
 bool read_pair(const char *text, char separator, long minimum, long maximum, long pair[2]);
 

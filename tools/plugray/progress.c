@@ -1,5 +1,6 @@
 #include "tools/plugray/progress.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -13,6 +14,7 @@ static struct {
     pthread_t thread;
     const char *phase;
     char file[256]; /* "name, 45 %", or nothing */
+    char bar[64];   /* " [###  ] 60 %", or nothing */
     struct timespec start;
     bool running, shown, end;
 } state = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
@@ -37,7 +39,8 @@ static void *show(void *unused) {
         long seconds = seconds_shown(&now);
         if (state.end || seconds < 1)
             continue;
-        fprintf(stderr, "\r\033[Kplugray: %s%s, %ld s", state.phase, state.file, seconds);
+        fprintf(stderr, "\r\033[Kplugray: %s%s%s, %ld s", state.phase, state.file, state.bar,
+                seconds);
         fflush(stderr);
         state.shown = true;
     }
@@ -54,6 +57,8 @@ void progress(const char *phase) {
         state.phase = phase;
     state.file[0] = '\0';
     state.end = !phase;
+    if (state.end)
+        state.bar[0] = '\0';
     pthread_cond_signal(&state.changed);
     if (start) {
         clock_gettime(CLOCK_REALTIME, &state.start);
@@ -67,6 +72,14 @@ void progress(const char *phase) {
     if (state.shown)
         fputs("\r\033[K", stderr);
     state.shown = false;
+}
+
+void progress_part(double done) {
+    static const char full[] = "##############################";
+    double part = done > 0 ? fmin(done, 1) : 0;
+    pthread_mutex_lock(&state.mutex);
+    snprintf(state.bar, sizeof state.bar, " [%-30.*s] %.0f %%", (int)(part * 30), full, 100 * part);
+    pthread_mutex_unlock(&state.mutex);
 }
 
 void progress_of_file(void *unused, const char *name, double done) {

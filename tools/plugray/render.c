@@ -7,6 +7,7 @@
 #include "tools/plugray/commands.h"
 #include "tools/plugray/files.h"
 #include "tools/plugray/frames.h"
+#include "tools/plugray/median.h"
 #include "tools/plugray/pick.h"
 #include "tools/plugray/progress.h"
 #include "tools/plugray/scene.h"
@@ -105,16 +106,6 @@ static bool read_options(render_job *job) {
 }
 
 /* ---- Drawing ---- */
-
-static int compare_times(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *times, size_t count) {
-    qsort(times, count, sizeof *times, compare_times);
-    return count % 2 ? times[count / 2] : (times[count / 2 - 1] + times[count / 2]) / 2;
-}
 
 static bool draw_once(render_job *job, plr_phase *time) {
     plr_picture_free(&job->picture);

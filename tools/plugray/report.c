@@ -121,7 +121,7 @@ int report_status(const plr_diags *diags, bool strict) {
         if (diag->severity != PLR_ERROR)
             continue;
         machine |= diag->code == PLR_CODE_NO_GL || diag->code == PLR_CODE_NO_MEMORY ||
-                   diag->code == PLR_CODE_OUTPUT;
+                   diag->code == PLR_CODE_OUTPUT || diag->code == PLR_CODE_MISSING_PROGRAM;
     }
     if (machine)
         return STATUS_MACHINE;
