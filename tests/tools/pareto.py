@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as folder:
     class Bench:
         """As little of one as costs.py needs."""
 
-        plugray, quick, rounds, midpoint_words, bare = bare, True, 1, (), ()
+        plugray, quick, rounds, clock, midpoint_words, bare = bare, True, 1, "cpu", (), ()
 
     Bench.folder = folder
     row = costs.by_hand(Bench, type("", (), {"step": lambda self: None})())[0]

@@ -35,11 +35,12 @@ def panel(title, plots, error_bar):
     return "\n".join(lines) + "\n"
 
 
-def setting_chart(setting, points, truth_error, path):
+def setting_chart(setting, points, truth_error, clock, path):
     """Two panels beside each other: root mean square, and the greatest error."""
     script = ["set terminal svg size 1000,470 dynamic font 'sans-serif,12' background 'white'",
               f"set output '{path}'", "set logscale xy", "set format y '10^{%T}'", "set grid linecolor rgb '#e4e4e4'",
-              "set xlabel 'CPU time of a frame, ms'", "set key outside bottom center horizontal samplen 2 font ',10'",
+              f"set xlabel '{clock} time of a frame, ms'",
+              "set key outside bottom center horizontal samplen 2 font ',10'",
               "set multiplot layout 1,2"]
     names = list(dict.fromkeys(p.method.name for p in points))
     for which, title in (("rmse", "root mean square error"), ("most", "greatest error")):

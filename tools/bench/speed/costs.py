@@ -14,17 +14,17 @@ class Case:
 
     def __init__(self, bench, text, words, size):
         self.bench, self.text, self.words, self.size = bench, text, tuple(words), size
-        self.cpu, self.programs = [], None
+        self.times, self.programs = [], None
 
     def draw(self, budget=0.4, picture=None):
-        repeat = min(max(round(1e3 * budget / max(self.cpu[0], 1)), 1), 40) if self.cpu else 1
+        repeat = min(max(round(1e3 * budget / max(self.times[0], 1)), 1), 40) if self.times else 1
         stats = self.bench.plugray.render(self.text, self.words, self.size, picture, repeat)
-        self.cpu.append(stats["frame"].cpu)
+        self.times.append(getattr(stats["frame"], self.bench.clock))
         self.programs = sorted((p["name"], p["instructions"], p["fetches"]) for p in stats["programs"])
 
     @property
     def time(self):
-        return engines.median(self.cpu[1:] or self.cpu)  # the first one says how often to repeat
+        return engines.median(self.times[1:] or self.times)  # the first one says how often to repeat
 
 
 def paired(first, second, rounds, progress, budget):
@@ -36,7 +36,7 @@ def paired(first, second, rounds, progress, budget):
             case.draw(budget=budget)
             progress.step()
         if number:  # the first one says how often to repeat
-            ratios.append(second.cpu[-1] / first.cpu[-1])
+            ratios.append(second.times[-1] / first.times[-1])
     mean = sum(ratios) / len(ratios)
     spread = math.sqrt(sum((r - mean) ** 2 for r in ratios) / max(len(ratios) - 1, 1) / len(ratios))
     return engines.median(ratios), spread
@@ -66,7 +66,7 @@ def leaping(bench, progress):
         same = rows.same_bytes(*files)
         for file in files:
             os.remove(file)
-        on.cpu, off.cpu = on.cpu[:1], off.cpu[:1]
+        on.times, off.times = on.times[:1], off.times[:1]
         ratio, spread = paired(on, off, bench.rounds, progress, 0.4)
         what = f"{percent} % of blocks occupied"
         found.append(rows.Row(part, what, ratio, bar, noise=2 * spread, detail=f"without "
@@ -189,7 +189,8 @@ def by_hand_scene(volume, size, step):
     low = max(lows) / volume.top if lows else -1
     high = min(highs) / volume.top if highs else 2
     modes = " ".join(f'boundaryMode{axis} "CLAMP_TO_EDGE"' for axis in "STR")
-    plain = f'textureProperties TextureProperties {{ minificationFilter "LINEAR" magnificationFilter "LINEAR" {modes} }}'
+    plain = ('textureProperties TextureProperties { minificationFilter "LINEAR" magnificationFilter "LINEAR" %s }'
+             % modes)
     return scenes.viewpoint(volume.side, False), f'''Shape {{ appearance Appearance {{ shaders ComposedShader {{
 language "GLSL"
 initializeOnly SFNode voxels ImageTexture3D {{ url "{volume.name}.nrrd" {plain} }}
@@ -221,14 +222,15 @@ def rotated(axis, angle, v):
 
 def by_hand(bench, progress):
     volume = data.lobb_volume(64)
-    size, step = (128, 0.5) if bench.quick else (384, 0.25)
+    size, step = (128, 0.5) if bench.quick else (384, 0.125)
     with open(BY_HAND, encoding="utf-8") as file, \
             open(os.path.join(bench.folder, "by-hand.frag"), "w", encoding="utf-8") as copy:
         copy.write(file.read())
     view, shape = by_hand_scene(volume, size, step)
     whole = scenes.volume_node(volume).replace("cropMin", "#").split("#")
     node = whole[0] + "\n" + whole[1].split("\n", 1)[1]  # the one by hand knows no crop box
-    composed = Case(bench, scenes.scene(volume, node=node), (*bench.midpoint_words, "--step", f"{step:g}", *bench.bare), size)
+    words = (*bench.midpoint_words, "--step", f"{step:g}", *bench.bare)
+    composed = Case(bench, scenes.scene(volume, node=node), words, size)
     hand = Case(bench, "#X3D V4.0 utf8\nPROFILE Immersive\n" + view + shape, (), size)
     files = [os.path.join(bench.folder, f"hand-{os.getpid()}-{n}.npy") for n in "01"]
     composed.draw(picture=files[0])

@@ -108,7 +108,7 @@ class Point:
         self.method = method
         self.knob = knob
         self.extra = tuple(extra)
-        self.cpu, self.wall = [], []
+        self.cpu, self.wall, self.times = [], [], []
         self.error = None
         self.said = None  # what plugray says about its error
 
@@ -136,6 +136,7 @@ class Point:
                                           setting.perspective, setting.shaded, picture, budget)
         self.cpu.append(frame.cpu)
         self.wall.append(frame.wall)
+        self.times.append(getattr(frame, self.bench.clock))
         if judge:
             numbers = (engines.read_npy(picture) if self.method.who == "plugray"
                        else engines.read_vtk(picture, setting.size))
@@ -145,12 +146,12 @@ class Point:
 
     @property
     def time(self):
-        return engines.median(self.cpu)
+        return engines.median(self.times)
 
     @property
     def slack(self):
         """Two standard errors, relative."""
-        return 2 * standard_error(self.cpu)
+        return 2 * standard_error(self.times)
 
 
 def measure(points, rounds, progress):
@@ -192,26 +193,27 @@ def crossing(points, target):
     return best
 
 
-def front(points):
-    """Those that no other beats in both time and error, fastest first."""
+def front(points, which="rmse"):
+    """Those that no other beats in both time and error (`rmse` or `most`), fastest first."""
     best, found = math.inf, []
-    for point in sorted(points, key=lambda p: (p.time, p.error.rmse)):
-        if point.error.rmse < best:
-            best = point.error.rmse
+    for point in sorted(points, key=lambda p: (p.time, getattr(p.error, which))):
+        if getattr(point.error, which) < best:
+            best = getattr(point.error, which)
             found.append(point)
     return found
 
 
-def front_time(points, error):
+def front_time(points, error, which="rmse"):
     """How long the front takes to an error; straight in logarithms between its points."""
-    found = front(points)
-    for number, point in enumerate(found):
-        if point.error.rmse <= error:
-            if number == 0:
+    before = None
+    for point in front(points, which):
+        reached = getattr(point.error, which)
+        if reached <= error:
+            if not before or reached <= 0:
                 return point.time
-            before = found[number - 1]
-            part = math.log(before.error.rmse / error) / math.log(before.error.rmse / point.error.rmse)
-            return log_between(before.time, point.time, part)
+            part = math.log(before[1] / error) / math.log(before[1] / reached)
+            return log_between(before[0], point.time, part)
+        before = point.time, reached
     return math.inf
 
 

@@ -4,14 +4,14 @@ import csv
 import os
 import re
 
-from . import charts, measure
+from . import charts, engines, measure
 
 HEAD = """# Speed and accuracy
 
 Written by `{command}`; all points are in [points.csv](speed-accuracy/points.csv). Nothing on this page is
 typed by hand.
 
-Each point is one way to draw a volume, with one setting: the CPU time of a frame, of all threads, median of {rounds}
+Each point is one way to draw a volume, with one setting: the {time} of a frame, median of {rounds}
 rounds in which all ways take turns, and the error against one truth, over all pixels and all four channels of
 premultiplied floats. The truth is a raycaster in double precision ([tests/reference](../tests/reference/README.md)) that
 integrates the trilinear values and the linear pieces of the transfer function piece by piece; its own error bar is
@@ -65,14 +65,14 @@ def summary(rows):
     return "Rows: " + ", ".join(f"{n} {name}" for name, n in counts.items()) + "."
 
 
-def points_table(points):
+def points_table(points, clock):
     rows = []
     for point in points:
         said = point.said or {}
         kind = f"{said['kind']} {said['value']:.2g}" if said.get("value") else "-"
         rows.append((point.method.name, f"`{point.settings_text()}`", f"{point.time:.1f}",
                      f"{100 * point.slack / 2:.1f} %", f"{point.error.rmse:.2e}", f"{point.error.most:.4f}", kind))
-    return table(("method", "setting", "CPU ms", "standard error", "RMSE", "greatest error", "says"), rows)
+    return table(("method", "setting", f"{clock} ms", "standard error", "RMSE", "greatest error", "says"), rows)
 
 
 def write_csv(results, path):
@@ -84,8 +84,9 @@ def write_csv(results, path):
             for p in points:
                 said = p.said or {}
                 writer.writerow((setting.name, setting.size, p.method.name, f"{p.knob:.9g}", p.settings_text(),
-                                 f"{p.time:.2f}", f"{measure.standard_error(p.cpu) * p.time:.2f}",
-                                 f"{sorted(p.wall)[len(p.wall) // 2]:.2f}", f"{p.error.rmse:.4e}",
+                                 f"{engines.median(p.cpu):.2f}",
+                                 f"{measure.standard_error(p.cpu) * engines.median(p.cpu):.2f}",
+                                 f"{engines.median(p.wall):.2f}", f"{p.error.rmse:.4e}",
                                  f"{p.error.most:.4e}", said.get("kind") or "", said.get("value") or "", len(p.cpu)))
 
 
@@ -94,7 +95,7 @@ def write(bench, command, results, rows, series, folder):
     beside = os.path.join(folder, "speed-accuracy")
     os.makedirs(beside, exist_ok=True)
     write_csv(results, os.path.join(beside, "points.csv"))
-    text = HEAD.format(command=command, rounds=bench.rounds, machine=machine(bench))
+    text = HEAD.format(command=command, rounds=bench.rounds, time=bench.time, machine=machine(bench))
     text += "\n## What must be reached\n\n" + summary(rows) + "\n" + rows_text(rows)
     if series and charts.available():
         charts.scaling_chart(series, os.path.join(beside, "scaling.svg"))
@@ -105,8 +106,9 @@ def write(bench, command, results, rows, series, folder):
         if setting.title:
             text += f"{setting.title[0].upper()}{setting.title[1:]}.\n\n"
         if charts.available():
-            charts.setting_chart(setting, points, bench.truth(setting).error, os.path.join(folder, charts.names(setting)))
+            charts.setting_chart(setting, points, bench.truth(setting).error, bench.clock_name,
+                                 os.path.join(folder, charts.names(setting)))
             text += f"![CPU time against error]({charts.names(setting)})\n\n"
-        text += points_table(points)
+        text += points_table(points, bench.clock_name)
     with open(os.path.join(folder, "speed-accuracy.md"), "w", encoding="utf-8") as file:
         file.write(text)

@@ -75,7 +75,8 @@ def race(bench, setting, points, theirs, bar, least, part, what, progress):
     ratio = fresh.time / rival.time
     slack = math.hypot(fresh.slack, rival.slack)
     return Row(part, what, ratio, bar, least,
-               noise=slack * ratio, detail=f"VTK {fresh.time:.0f} ms, RMSE {theirs.error.rmse:.2e}, max {theirs.error.most:.3f}; "
+               noise=slack * ratio, detail=f"VTK {fresh.time:.0f} ms, RMSE {theirs.error.rmse:.2e}, "
+               f"max {theirs.error.most:.3f}; "
                f"plugray `{rival.settings_text()}` {rival.time:.1f} ms, RMSE {rival.error.rmse:.2e}, max "
                f"{rival.error.most:.3f}; two standard errors {100 * slack:.0f} %")
 
@@ -135,6 +136,36 @@ def fronts(results):
                             detail=f"of {len(rivals)}; closest: {where}, for whose RMSE plugray takes "
                             f"{worst:.2f} times its CPU time"))
     return rows
+
+
+# ---- What is promised ----
+
+PROMISED = "What `--error E` promises"
+
+
+def promises(results):
+    """No error above a bound that is said, and no more time than the cheapest fixed setting within it."""
+    broken, said, ratios = [], 0, []
+    for setting, points in results.items():
+        fixed = [p for p in points if p.method.knob == "--step"]
+        for point in points:
+            if point.method.knob != "--error" or not (point.said or {}).get("value"):
+                continue
+            if point.said["kind"] == "bounded":
+                said += 1
+                if point.error.most > point.said["value"]:
+                    broken.append(f"{setting.name} {point.method.name} {point.knob:.4g}: {point.error.most:.2e}")
+            if point.method.name == "planner" and point.knob <= 1 / 60 and point.said["kind"] == "bounded":
+                cheapest = measure.front_time(fixed, point.knob, "most")
+                if cheapest < math.inf:
+                    ratios.append(point.time / cheapest)
+    if not said:
+        return []
+    return [Row(PROMISED, "settings whose greatest error is above a bound that plugray says", len(broken), 0,
+                greater=False, detail=f"of {said}" + "".join("; " + b for b in broken)),
+            Row(PROMISED, "CPU time against the cheapest fixed steps whose greatest error is within E, median",
+                engines.median(ratios) if ratios else None, 1.5, greater=False,
+                detail=f"{len(ratios)} settings" + (f", {min(ratios):.2f} to {max(ratios):.2f}" if ratios else ""))]
 
 
 # ---- Finer than plain steps ----
