@@ -64,6 +64,8 @@ ONCE = [f"Transform {{ translation {x} 0 0 children [\n{box}] }}\n" for x, box i
                  fields="opacityUnitDistance 1")),
     (1.5, "SegmentedVolumeData { dimensions 1 1 1 voxels " + constant(51, (4, 4, 4)) + " opacityUnitDistance 1 }\n"))]
 
+ONCE_ALONE = volume(constant(51, (4, 4, 4)), fields="opacityUnitDistance 1")
+
 
 @suite.row("F2", "opacity correction applied twice", scene=scene(view(2, 0.5), NO_HEADLIGHT, *ONCE),
            shows="boxes that are 0.2 opaque as a whole: bare, with a transfer function, with two styles, with segments",
@@ -74,6 +76,8 @@ def corrected_once(row):
             p = row.picture("--step", step, *options, size="8x2")
             found = [p.at(x, y)[3] for x in range(8) for y in range(2)]
             row.measure("A differs from 0.2 by", max(abs(a - 0.2) for a in found), at_most=FLOOR, case=f"{name} {step}")
+            alone = row.middle("--step", step, *options, scene=scene(view(0.2, 0.2), NO_HEADLIGHT, ONCE_ALONE))
+            row.measure("alone, A differs from 0.2 by", abs(alone[3] - 0.2), at_most=FLOOR, case=f"{name} {step}")
 
 
 def in_units(scale, box=(1, 2, 1), fields="", step=(1, 1, 1), turn=(0, 1, 0, 0)):
