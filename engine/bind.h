@@ -66,6 +66,8 @@ typedef struct plr_volume_state {
     double step;      /* sample distance, own coordinates */
     size_t index;
     bool authors_see_all; /* an effect of an author needs every sample */
+    bool general;         /* of a general world: what is switched off counts, too */
+    bool hidden;          /* all its styles are switched off */
     plr_grid *grid;
     plr_texture *labels; /* segment numbers; or NULL */
     plr_volume_kind kind;

@@ -93,6 +93,9 @@ static void v_light_direction(const plr_known_context *c, float *out) {
 static void v_light_location(const plr_known_context *c, float *out) {
     plr_light_location(c->binding, &c->values->frame->view, out);
 }
+static void v_gate(const plr_known_context *c, float *out) {
+    out[0] = !c->binding->closed;
+}
 /* From lengths in eye space to the node's own; of a node that is scaled otherwise along each axis,
  * their geometric mean. */
 static void v_length_to_node(const plr_known_context *c, float *out) {
@@ -248,6 +251,7 @@ static const plr_known known[] = {
     {"eyeToProjector", OWNER_NODE, v_eye_to_projector},
     {"eyeToNode", OWNER_NODE, v_eye_to_node},
     {"lengthToNode", OWNER_NODE, v_length_to_node},
+    {"gate", OWNER_NODE, v_gate},
     {"light_direction_eye", OWNER_NODE, v_light_direction},
     {"light_location_eye", OWNER_NODE, v_light_location},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},

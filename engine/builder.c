@@ -237,3 +237,10 @@ size_t plr_builder_wait(plr_builder *b, double wait_ms) {
     pthread_mutex_unlock(&b->lock);
     return waiting;
 }
+
+size_t plr_builder_waiting(plr_builder *b) {
+    pthread_mutex_lock(&b->lock);
+    size_t waiting = b->waiting;
+    pthread_mutex_unlock(&b->lock);
+    return waiting;
+}

@@ -26,5 +26,6 @@ plr_building plr_builder_ask(plr_builder *builder, const char *const texts[PLR_S
 /* Waits until nothing waits any more, or so long; without a thread, builds one program. How many
  * still wait. Needs GL. */
 size_t plr_builder_wait(plr_builder *builder, double wait_ms);
+size_t plr_builder_waiting(plr_builder *builder);
 
 #endif

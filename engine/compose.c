@@ -173,6 +173,19 @@ static plr_built *keep(plr_composer *c, const plr_recipe *recipe, const char *ki
     return built;
 }
 
+/* The program that is there without compiling; 0: it is being built, or will not be. */
+static GLuint look_up(plr_composer *c, const char *const texts[PLR_STAGE_COUNT]) {
+    GLuint built = 0, name = c->cache && c->builder ? plr_cache_find(c->cache, texts) : 0;
+    if (name || !c->defers)
+        return name;
+    plr_building state = plr_builder_ask(c->builder, texts, &built);
+    if (state == PLR_BUILDING_DONE)
+        name = plr_cache_adopt(c->cache, texts, built);
+    c->waiting += state == PLR_BUILDING_WAITS;
+    c->refused += state != PLR_BUILDING_WAITS && !name;
+    return name;
+}
+
 /* Asks glslang, and then the driver where there is one. */
 static bool compile(plr_composer *c, const char *const texts[PLR_STAGE_COUNT], verdict *v,
                     GLuint *name) {
@@ -217,8 +230,12 @@ static plr_built *try_once(plr_composer *c, plr_recipe *recipe, const char *kind
         return built;
     }
     verdict v = {0};
-    GLuint name = 0;
-    if (compile(c, texts, &v, &name)) {
+    GLuint name = look_up(c, texts);
+    if (!name && c->defers) {
+        plr_program_destroy(&program);
+        return NULL;
+    }
+    if (name || compile(c, texts, &v, &name)) {
         built = keep(c, recipe, kind, program, hash);
         built->name = name;
         built->defaults = name ? plr_cache_defaults(c->cache, name) : NULL;
@@ -243,7 +260,8 @@ plr_built *plr_compose_program(plr_composer *c, plr_recipe *recipe, const char *
             built = try_once(c, recipe, kind, round, &again);
         if (built && c->check_unreached)
             plr_unreached_collect(c, recipe);
-        plr_memo_add(c, &key, recipe, built);
+        if (built || !c->defers) /* what lacks may come */
+            plr_memo_add(c, &key, recipe, built);
     }
     *program = built ? built->info.program : NULL;
     return built;

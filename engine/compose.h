@@ -3,6 +3,7 @@
 #ifndef PLR_ENGINE_COMPOSE_H
 #define PLR_ENGINE_COMPOSE_H
 
+#include "engine/builder.h"
 #include "engine/cache.h"
 #include "engine/recipe.h"
 
@@ -27,6 +28,11 @@ typedef struct plr_composer {
     plr_kitchen *kitchen;
     plr_cache *cache; /* NULL: no GL, glslang only */
     bool check_unreached;
+    /* Programs that would have to be compiled are asked of the builder instead: they lack, and are
+     * asked for again later. */
+    bool defers;
+    plr_builder *builder;    /* of views that are interactive; or NULL */
+    size_t waiting, refused; /* of those: at work, or not to be had so */
     plr_diags *diags;
     struct {
         plr_built **items;

@@ -14,6 +14,7 @@ plr_engine *plr_engine_create(const plr_engine_desc *desc, plr_diags *diags) {
         free(engine);
         return NULL;
     }
+    engine->desc = *desc;
     engine->cache = plr_cache_create(&engine->gl, desc->cache_folder);
     engine->catalog = plr_catalog_create(diags);
     if (!engine->cache || !engine->catalog)
@@ -24,6 +25,7 @@ plr_engine *plr_engine_create(const plr_engine_desc *desc, plr_diags *diags) {
 void plr_engine_destroy(plr_engine **engine) {
     if (!*engine)
         return;
+    plr_builder_destroy(&(*engine)->builder);
     plr_cache_destroy(&(*engine)->cache);
     plr_catalog_destroy(&(*engine)->catalog);
     free(*engine);

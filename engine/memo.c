@@ -55,6 +55,7 @@ static void put_defines(writer *w, const plr_define *defines, size_t count) {
 static void put_effect(writer *w, const plr_effect *effect, const plr_node *node) {
     put_text(w, effect->name);
     put_text(w, effect->target);
+    put_text(w, effect->gate);
     put_sources(w, effect->sources, effect->source_count);
     put_defines(w, effect->defines, effect->define_count);
     put_number(w, effect->attached);

@@ -1,11 +1,13 @@
 /* What volumes and surfaces have in common: lights, and the way from program to uniforms. */
-#include "engine/view.h"
+#include "engine/general.h"
 
 static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light, size_t attached,
                       size_t volume) {
     const char *type = light->node ? plr_node_type(light->node) : "DirectionalLight";
     bool ambient = light->node && plr_node_number(light->node, "ambientIntensity") != 0;
     const plr_define no_ambient = {"NO_AMBIENT", "1"};
+    if (!plr_general_has(view, light->off, light->node))
+        return;
     plr_recipe_builtin(&view->kitchen, recipe, plr_arena_format(&view->arena, "lights/%s", type),
                        type,
                        (plr_binding){.node = light->node,
@@ -13,8 +15,10 @@ static void add_light(plr_view *view, plr_recipe *recipe, const plr_light *light
                                      .place = &light->to_world,
                                      .in_eye_space = light->in_eye_space,
                                      .volume = volume,
-                                     .is_light = true},
-                       attached, &no_ambient, ambient ? 0 : 1);
+                                     .is_light = true,
+                                     .gated = view->general,
+                                     .closed = light->off},
+                       attached, &no_ambient, ambient || view->general ? 0 : 1);
 }
 
 void plr_pass_lights(plr_view *view, plr_recipe *recipe, const plr_scope *scope, size_t attached,

@@ -115,6 +115,8 @@ static plr_sources gather_units(plr_kitchen *k, const char *paths) {
 size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, const char *name,
                           plr_binding binding, size_t attached, const plr_define *extra,
                           size_t extra_count) {
+    if (binding.gated)
+        path = plr_arena_format(k->arena, "%s general/Gate", path);
     plr_sources units = gather_units(k, path);
     if (!units.count)
         return 0;
@@ -130,7 +132,8 @@ size_t plr_recipe_builtin(plr_kitchen *k, plr_recipe *recipe, const char *path, 
                          .define_count = defines.count,
                          .attached = attached,
                          .only_attached = attached != 0,
-                         .builtin = true};
+                         .builtin = true,
+                         .gate = binding.gated ? "gate" : NULL};
     if (binding.node)
         effect.place = plr_node_place(binding.node);
     return push_effect(k, recipe, effect, binding);

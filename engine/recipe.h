@@ -21,7 +21,9 @@ typedef struct plr_binding {
     const struct plr_shadow_values *shadow; /* of an effect that reads a shadow map; or NULL */
     const struct plr_grid *grid;            /* of an effect that reads voxels; or NULL */
     const struct plr_atlas_place *function; /* where its transfer function is; or NULL */
-    int number; /* of the segment or surface whose styles it is around */
+    int number;  /* of the segment or surface whose styles it is around */
+    bool gated;  /* of a general program: a uniform says whether it is on (engine/general.h) */
+    bool closed; /* it is not */
 } plr_binding;
 
 typedef struct plr_recipe {

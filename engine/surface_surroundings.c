@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "engine/general.h"
+
 /* Every plane costs each fragment a test; the standard asks for six at least. */
 enum {
     MOST_CLIP_PLANES = 32
@@ -13,7 +15,9 @@ static size_t add_placed(plr_shape *shape, const char *path, const plr_placed *p
     plr_binding binding = {.node = placed->node,
                            .to_world = placed->to_world,
                            .place = &placed->to_world,
-                           .volume = PLR_NO_EFFECT};
+                           .volume = PLR_NO_EFFECT,
+                           .gated = shape->view->general,
+                           .closed = placed->off};
     return plr_recipe_builtin(&shape->view->kitchen, shape->recipe, path,
                               plr_node_type(placed->node), binding, 0, extra, extra_count);
 }
@@ -74,11 +78,13 @@ static void add_clip_planes(plr_shape *shape) {
     const plr_define on_surface = plr_shape_define(shape, "VOLUME", 0);
     size_t count = 0;
     for (const plr_scope *scope = shape->leaf->scope; scope; scope = scope->outer)
-        for (size_t i = 0; i < scope->clip_planes.count; i++, count++) {
+        for (size_t i = 0; i < scope->clip_planes.count; i++) {
             const plr_placed *plane = &scope->clip_planes.items[i];
-            if (count < MOST_CLIP_PLANES)
+            if (!plr_general_has(shape->view, plane->off, plane->node))
+                continue;
+            if (count++ < MOST_CLIP_PLANES)
                 add_placed(shape, "fog/ClipPlane", plane, &on_surface, 1);
-            else if (count == MOST_CLIP_PLANES)
+            else if (count == MOST_CLIP_PLANES + 1)
                 plr_diags_add(shape->diags, PLR_CODE_LIMIT, plr_node_place(plane->node),
                               "more than %d clip planes cut one shape; the outer ones are left out",
                               MOST_CLIP_PLANES);

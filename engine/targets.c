@@ -33,7 +33,7 @@ static plr_world *new_world(plr_view *view, const plr_node *texture, plr_diags *
         plr_flatten(&view->arena, view->scene, flat->has_eye ? &flat->eye_to_world : NULL,
                     &world->flat, NULL);
     if (fog)
-        world->flat.fog = (plr_placed){fog, plr_matrix_identity()};
+        world->flat.fog = (plr_placed){.node = fog, .to_world = plr_matrix_identity()};
     world->viewpoint = view->viewpoint;
     return world;
 }

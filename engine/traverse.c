@@ -28,11 +28,10 @@ static bool is_a(const plr_node *node, const char *type) {
 
 static void add_light(walk *w, plr_node *node, const plr_matrix *matrix) {
     *PLR_PUSH(w->arena, &w->flat->all_lights) = (plr_light){.node = node, .to_world = *matrix};
-    if (!plr_node_bool(node, "on"))
-        return;
     bool global = plr_node_bool(node, "global");
     plr_lights *lights = global ? &w->flat->global_lights : &w->scope->lights;
-    *PLR_PUSH(w->arena, lights) = (plr_light){.node = node, .to_world = *matrix};
+    *PLR_PUSH(w->arena, lights) =
+        (plr_light){.node = node, .to_world = *matrix, .off = !plr_node_bool(node, "on")};
 }
 
 /* At most `most` nodes of a field; what is among them is in their scope. */
@@ -55,17 +54,17 @@ static void visit_children(walk *w, plr_node *node, const char *name, const plr_
 
 static void visit_fog(walk *w, plr_node *node, const plr_matrix *matrix) {
     if (!w->flat->fog.node)
-        w->flat->fog = (plr_placed){node, *matrix};
+        w->flat->fog = (plr_placed){.node = node, .to_world = *matrix};
 }
 
 static void visit_local_fog(walk *w, plr_node *node, const plr_matrix *matrix) {
     if (!w->scope->fog.node && plr_node_bool(node, "enabled"))
-        w->scope->fog = (plr_placed){node, *matrix};
+        w->scope->fog = (plr_placed){.node = node, .to_world = *matrix};
 }
 
 static void visit_clip_plane(walk *w, plr_node *node, const plr_matrix *matrix) {
-    if (plr_node_bool(node, "enabled"))
-        *PLR_PUSH(w->arena, &w->scope->clip_planes) = (plr_placed){node, *matrix};
+    *PLR_PUSH(w->arena, &w->scope->clip_planes) =
+        (plr_placed){.node = node, .to_world = *matrix, .off = !plr_node_bool(node, "enabled")};
 }
 
 static void visit_tone_mapping(walk *w, plr_node *node, const plr_matrix *matrix) {
@@ -374,11 +373,10 @@ static void visit(walk *w, plr_node *node, const plr_matrix *matrix) {
 /* The headlight, or another light in its place: where the viewer is. */
 static void add_headlight(plr_arena *arena, plr_flat *flat) {
     plr_node *node = flat->navigation ? plr_node_child(flat->navigation, "headlightNode") : NULL;
-    if (flat->navigation && !plr_node_bool(flat->navigation, "headlight"))
-        return;
-    if (!node || plr_node_bool(node, "on"))
-        *PLR_PUSH(arena, &flat->global_lights) =
-            (plr_light){.node = node, .to_world = plr_matrix_identity(), .in_eye_space = true};
+    bool off = (flat->navigation && !plr_node_bool(flat->navigation, "headlight")) ||
+               (node && !plr_node_bool(node, "on"));
+    *PLR_PUSH(arena, &flat->global_lights) = (plr_light){
+        .node = node, .to_world = plr_matrix_identity(), .in_eye_space = true, .off = off};
 }
 
 static void limit_views(plr_flat *flat) {

@@ -10,6 +10,7 @@ typedef struct plr_light {
     plr_node *node; /* NULL: a headlight as the standard has it */
     plr_matrix to_world;
     bool in_eye_space; /* a headlight: it goes with the viewer */
+    bool off;          /* general programs have it all the same */
 } plr_light;
 
 typedef struct plr_lights {
@@ -26,6 +27,7 @@ typedef struct plr_nodes {
 typedef struct plr_placed {
     plr_node *node; /* or NULL */
     plr_matrix to_world;
+    bool off; /* of a clip plane: general programs have it all the same */
 } plr_placed;
 
 typedef struct plr_placed_list {
@@ -36,7 +38,7 @@ typedef struct plr_placed_list {
 /* What a group gives to everything inside it, siblings before included. */
 typedef struct plr_scope {
     const struct plr_scope *outer; /* NULL at the top level */
-    plr_lights lights;             /* with global FALSE */
+    plr_lights lights;             /* with global FALSE, those that are off, too */
     plr_nodes effects;
     plr_placed fog; /* the first LocalFog that is enabled */
     plr_placed_list clip_planes;
@@ -62,7 +64,7 @@ typedef struct plr_viewpoint {
 
 typedef struct plr_flat {
     plr_leaves volumes, shapes;
-    plr_lights global_lights; /* the headlight among them */
+    plr_lights global_lights; /* the headlight among them; those that are off, too */
     plr_lights all_lights;    /* that have a place in the scene, those that are off, too */
     struct {
         plr_viewpoint *items;

@@ -5,6 +5,7 @@
 
 #include "engine/changes.h"
 #include "engine/dialect.h"
+#include "engine/general.h"
 #include "engine/targets.h"
 
 /* ---- The scene at a time ---- */
@@ -113,7 +114,7 @@ static void reload_textures(plr_view *view) {
 
 /* ---- Updating ---- */
 
-static void remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
+void plr_view_remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
     plr_view_set_diags(view, diags);
     plr_targets_finish(view);
     plr_world_finish(view);
@@ -124,6 +125,7 @@ static void remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
     plr_arena_finish(&view->arena);
     plr_arena_init(&view->arena, NULL, out_of_memory);
     reload_textures(view);
+    view->composer.waiting = view->composer.refused = 0;
     plr_view_make(view, eye, diags);
     plr_view_set_diags(view, NULL);
 }
@@ -131,7 +133,9 @@ static void remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
 static void follow(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
     plr_change change = plr_view_changed(view);
     if (change == PLR_CHANGE_PARTS || (change == PLR_CHANGE_PLACES && !plr_view_move(view, eye)))
-        remake(view, eye, diags);
+        plr_general_remake(view, eye, diags);
+    else
+        view->stats.built = 0;
     view->revision = plr_scene_revision(view->scene);
 }
 

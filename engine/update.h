@@ -13,6 +13,10 @@ bool plr_view_live(plr_view *view, plr_matrix *eye_to_world, plr_diags *diags);
 /* Flattens the scene and makes everything ready for drawing, in the view's arena; with GL, uploads.
  * False if there is no viewpoint as asked for (reported). */
 bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags);
+/* The same once more, after what was made before is freed; what can be kept is kept. */
+void plr_view_remake(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags);
+/* Draws into the framebuffer of the last picture, targets aside. Needs GL. */
+void plr_view_draw_again(plr_view *view);
 /* The parts of the view that are told while diagnostics are at hand. */
 void plr_view_set_diags(plr_view *view, plr_diags *diags);
 /* Remembers what textures were loaded from. */

@@ -33,6 +33,11 @@ static void init_parts(plr_view *view, const plr_catalog *catalog, plr_diags *di
     view->composer = (plr_composer){.kitchen = &view->kitchen,
                                     .cache = view->engine ? view->engine->cache : NULL,
                                     .check_unreached = !view->engine};
+    if (view->engine && view->desc.interactive && !view->engine->builder)
+        view->engine->builder = plr_builder_create(
+            &view->engine->gl, view->engine->desc.make_shared_current, view->engine->desc.user);
+    if (view->engine && view->desc.interactive)
+        view->composer.builder = view->engine->builder;
     plr_view_set_diags(view, diags);
 }
 
@@ -68,7 +73,7 @@ bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *di
     view->revision = plr_scene_revision(view->scene);
     view->made = true;
     plr_phase start = plr_clock();
-    if (view->engine)
+    if (view->engine && !view->composer.waiting && !view->composer.refused)
         upload(view);
     plr_phase end = plr_clock();
     view->stats.upload = (plr_phase){end.cpu_ms - start.cpu_ms, end.wall_ms - start.wall_ms};
@@ -80,6 +85,7 @@ static bool prepare(plr_view *view, plr_diags *diags) {
     plr_matrix eye = plr_matrix_identity();
     view->asked_dialect = view->desc.dialect;
     plr_view_live(view, &eye, diags);
+    view->eye_to_world = eye;
     if (!plr_view_make(view, &eye, diags))
         return false;
     plr_phase end = plr_clock(), upload = view->stats.upload;
@@ -190,6 +196,13 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     return fine;
 }
 
+void plr_view_draw_again(plr_view *view) {
+    const plr_draw_desc desc = {view->framebuffer.width, view->framebuffer.height, 1};
+    plr_frame frame;
+    plan(view, &desc, plr_frame_reversed(view), &frame);
+    draw_sample(view, &frame);
+}
+
 static bool size_framebuffer(plr_view *view, int width, int height, plr_diags *diags) {
     plr_framebuffer *framebuffer = &view->framebuffer;
     return framebuffer->name
@@ -290,6 +303,8 @@ const plr_program_info *plr_view_program(const plr_view *view, size_t index) {
 
 void plr_view_get_stats(const plr_view *view, plr_view_stats *stats) {
     *stats = view->stats;
+    stats->building = view->composer.builder ? plr_builder_waiting(view->composer.builder) : 0;
+    stats->general = view->general;
     plr_frame frame;
     plr_draw_desc desc = {view->framebuffer.width, view->framebuffer.height, 1};
     if (desc.width < 1)

@@ -13,6 +13,8 @@ struct plr_engine {
     plr_gl gl;
     plr_cache *cache;
     plr_catalog *catalog;
+    plr_engine_desc desc;
+    plr_builder *builder; /* NULL: no view was interactive yet */
 };
 
 /* A program with everything that it needs to run. */
@@ -166,6 +168,12 @@ struct plr_view {
     uint64_t revision;   /* of the scene, when its worlds were made */
     int asked_dialect;   /* as in plr_view_desc, which then has what came of it */
     bool made;           /* once; from then on it is updated */
+    bool general;        /* its worlds are made of general programs (engine/general.h) */
+    struct {
+        bool asked, known; /* its general programs were asked for; and are built */
+        uint64_t of;       /* what the scene was then */
+    } general_state;
+    plr_matrix eye_to_world; /* of the last look at the scene */
     plr_viewpoint first; /* where the first look at a time comes from */
     plr_engine *engine;  /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;

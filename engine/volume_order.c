@@ -69,6 +69,8 @@ static int by_hash(const void *a, const void *b) {
 }
 
 void plr_volume_order(plr_view *view, size_t *members, size_t count) {
+    if (view->general) /* their text must not depend on values */
+        return;
     ordered *list = PLR_NEW_ARRAY(&view->arena, count, ordered);
     for (size_t i = 0; i < count; i++) {
         const plr_volume_state *state = &view->volumes.volumes[members[i]];

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/dialect.h"
+#include "engine/general.h"
 
 /* ---- Which volumes there are ---- */
 
@@ -41,8 +42,10 @@ void plr_volume_pass_find(plr_view *view, plr_diags *diags) {
         plr_volume_state *state = &pass->volumes[pass->count];
         if (!plr_volume_load(view, leaf, state, diags))
             continue;
+        state->general = view->general;
         find_kind(view, state, diags);
-        if (!plr_volume_has_styles(state))
+        state->hidden = !plr_volume_has_styles(state);
+        if (!plr_general_has(view, state->hidden, state->node))
             continue;
         state->index = pass->count;
         pass->leaves[pass->count++] = leaf;

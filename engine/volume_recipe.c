@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "engine/general.h"
 #include "engine/shadows.h"
 
 /* ---- One volume ---- */
@@ -37,26 +38,33 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
 }
 
 static void add_plane(plr_view *view, plr_recipe *recipe, plr_node *plane, const plr_matrix *place,
-                      size_t volume, size_t attached) {
+                      bool off, size_t volume, size_t attached) {
     static const plr_define in_volume = {"VOLUME", "1"};
-    plr_recipe_builtin(
-        &view->kitchen, recipe, "fog/ClipPlane", "ClipPlane",
-        (plr_binding){.node = plane, .to_world = *place, .place = place, .volume = volume},
-        attached, &in_volume, 1);
+    if (!plr_general_has(view, off, plane))
+        return;
+    plr_recipe_builtin(&view->kitchen, recipe, "fog/ClipPlane", "ClipPlane",
+                       (plr_binding){.node = plane,
+                                     .to_world = *place,
+                                     .place = place,
+                                     .volume = volume,
+                                     .gated = view->general,
+                                     .closed = off},
+                       attached, &in_volume, 1);
 }
 
 void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached) {
     const plr_leaf *leaf = view->volumes.leaves[volume];
     const plr_field *own = plr_node_field(leaf->node, "clipPlanes");
     for (size_t i = 0; own && i < own->count; i++)
-        if (own->value.nodes[i] && plr_node_bool(own->value.nodes[i], "enabled"))
-            add_plane(view, recipe, own->value.nodes[i], &leaf->to_world, volume, attached);
+        if (own->value.nodes[i])
+            add_plane(view, recipe, own->value.nodes[i], &leaf->to_world,
+                      !plr_node_bool(own->value.nodes[i], "enabled"), volume, attached);
     if (plr_node_bool(leaf->node, "ignoreClipPlanes"))
         return;
     for (const plr_scope *scope = leaf->scope; scope; scope = scope->outer)
         for (size_t i = 0; i < scope->clip_planes.count; i++) {
             const plr_placed *plane = &scope->clip_planes.items[i];
-            add_plane(view, recipe, plane->node, &plane->to_world, volume, attached);
+            add_plane(view, recipe, plane->node, &plane->to_world, plane->off, volume, attached);
         }
 }
 
@@ -80,6 +88,7 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, size_t 
     const plr_leaf *leaf = view->volumes.leaves[index];
     *attached = add_volume_effect(view, recipe, state);
     plr_volume_add_planes(view, recipe, index, *attached);
+    plr_general_hide(view, recipe, state->hidden, index, *attached);
     plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, diags);
     add_fog(view, recipe, leaf, index, *attached);
     size_t from = recipe->effects.count;

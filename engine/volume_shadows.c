@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "engine/general.h"
 #include "engine/shadows.h"
 
 /* ---- Which styles ask for shadows ---- */
@@ -14,37 +15,46 @@ enum {
 };
 
 /* ISO/IEC 19775-1 V4 41.4.10: `shadows` without `lighting` has no effect. */
-bool plr_style_has_shadows(const plr_node *style) {
+bool plr_style_has_shadows(const plr_node *style, bool general) {
     return (plr_node_is(style, "ShadedVolumeStyle") ||
             plr_node_is(style, "ISOSurfaceVolumeStyle")) &&
-           plr_node_bool(style, "lighting") && plr_node_bool(style, "shadows");
+           (general || plr_node_bool(style, "lighting")) && plr_node_bool(style, "shadows");
 }
 
-static bool blends(const plr_node *style) {
+static bool blends(const plr_node *style, bool general) {
+    (void)general;
     return plr_node_is(style, "BlendedVolumeStyle");
 }
 
-/* Whether any style in use of the tree is so; `left` bounds the search. */
-static bool any_style(const plr_node *style, bool (*is)(const plr_node *), size_t *left) {
-    if (!style || !*left || !plr_node_bool(style, "enabled"))
+/* What is asked of styles. */
+typedef struct question {
+    bool (*is)(const plr_node *style, bool general);
+    bool general; /* whatever is switched off */
+    size_t left;  /* looks at styles */
+} question;
+
+/* Whether any style in use of the tree is so. */
+static bool any_style(const plr_node *style, question *q) {
+    if (!style || !q->left || !(q->general || plr_node_bool(style, "enabled")))
         return false;
-    --*left;
-    if (is(style))
+    --q->left;
+    if (q->is(style, q->general))
         return true;
     const plr_field *inner = plr_node_field(style, "renderStyle");
     for (size_t i = 0; inner && i < inner->count; i++)
-        if (any_style(inner->value.nodes[i], is, left))
+        if (any_style(inner->value.nodes[i], q))
             return true;
     return false;
 }
 
-static bool any_style_of(const plr_volume_state *state, bool (*is)(const plr_node *)) {
+static bool any_style_of(const plr_volume_state *state, bool (*is)(const plr_node *, bool),
+                         bool general) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
     const plr_field *enabled = plr_node_field(state->node, "segmentEnabled");
-    size_t left = MOST_LOOKS;
+    question q = {is, general, MOST_LOOKS};
     for (size_t i = 0; i < styles->count; i++) {
         bool hidden = enabled && i < enabled->count && !enabled->value.bools[i];
-        if (!hidden && any_style(styles->value.nodes[i], is, &left))
+        if ((general || !hidden) && any_style(styles->value.nodes[i], &q))
             return true;
     }
     return false;
@@ -52,7 +62,8 @@ static bool any_style_of(const plr_volume_state *state, bool (*is)(const plr_nod
 
 /* A projection is no matter that light could meet. */
 static bool casts(const plr_volume_state *state, plr_diags *diags) {
-    if (state->kind == PLR_VOLUME_PROJECTED || !any_style_of(state, plr_style_has_shadows))
+    if (state->kind == PLR_VOLUME_PROJECTED ||
+        !any_style_of(state, plr_style_has_shadows, state->general))
         return false;
     if (state->grid->brick_sides[0])
         plr_diags_add_as(diags, PLR_WARNING, PLR_CODE_LIMIT, plr_node_place(state->node),
@@ -146,6 +157,8 @@ static void add_authors(plr_view *view, plr_recipe *recipe, size_t volume, size_
 static void add_caster(plr_view *view, plr_recipe *recipe, size_t volume, size_t shadow) {
     size_t ray = add_ray(view, recipe, &view->volumes.volumes[volume], shadow);
     plr_volume_add_planes(view, recipe, volume, ray);
+    const plr_volume_state *state = &view->volumes.volumes[volume];
+    plr_general_hide(view, recipe, !any_style_of(state, plr_style_has_shadows, false), volume, ray);
     plr_volume_add_styles(view, recipe, volume, ray, NULL, NULL);
     add_authors(view, recipe, volume, ray);
 }
@@ -180,5 +193,5 @@ static bool has_effects(const plr_leaf *leaf) {
  * with it. */
 bool plr_volume_skips_clear(const plr_view *view, size_t volume) {
     return !has_effects(view->volumes.leaves[volume]) &&
-           !any_style_of(&view->volumes.volumes[volume], blends);
+           !any_style_of(&view->volumes.volumes[volume], blends, view->general);
 }

@@ -22,14 +22,15 @@ static bool is_keeping(const plr_node *style) {
 }
 
 /* Whether the styles of the tree that are not leading opacity maps keep what is clear. `leading`:
- * only opacity maps so far; `left` bounds the search. */
-static bool keeps_clear(const plr_node *style, bool *leading, size_t *left) {
+ * only opacity maps so far; `general`: whatever is switched off; `left` bounds the search. */
+static bool keeps_clear(const plr_node *style, bool general, bool *leading, size_t *left) {
     if (!*left)
         return false;
     --*left;
+    bool on = !style || general || plr_node_bool(style, "enabled");
     if (!style || plr_node_is(style, "OpacityMapVolumeStyle"))
-        return *leading || (style && !plr_node_bool(style, "enabled"));
-    if (!plr_node_bool(style, "enabled"))
+        return *leading || !on;
+    if (!on)
         return true;
     if (!plr_node_is(style, "ComposedVolumeStyle")) {
         *leading = false;
@@ -37,7 +38,7 @@ static bool keeps_clear(const plr_node *style, bool *leading, size_t *left) {
     }
     const plr_field *styles = plr_node_field(style, "renderStyle");
     for (size_t i = 0; i < styles->count; i++)
-        if (styles->value.nodes[i] && !keeps_clear(styles->value.nodes[i], leading, left))
+        if (styles->value.nodes[i] && !keeps_clear(styles->value.nodes[i], general, leading, left))
             return false;
     return true;
 }
@@ -48,7 +49,8 @@ bool plr_volume_keeps_clear(const plr_volume_state *state) {
     size_t left = MOST_LOOKS;
     return state->kind == PLR_VOLUME_FILLED && styles->type == PLR_SFNODE &&
            !state->authors_see_all &&
-           keeps_clear(styles->count ? styles->value.nodes[0] : NULL, &leading, &left);
+           keeps_clear(styles->count ? styles->value.nodes[0] : NULL, state->general, &leading,
+                       &left);
 }
 
 void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume) {

@@ -58,6 +58,7 @@ typedef struct style_list {
     size_t attached;
     const plr_grid *grid;
     bool leading; /* only opacity maps so far */
+    bool off;     /* of a general program: what is added now is switched off */
     size_t *count;
     plr_diags *diags;
 } style_list;
@@ -79,7 +80,11 @@ static size_t add_effect(style_list *list, const char *path, const char *name, p
     extra[count] =
         (plr_define){"voxels_COMPONENTS",
                      plr_arena_format(&list->view->arena, "%u", list->grid->voxels->components)};
-    plr_binding binding = {.node = node, .volume = list->volume->index, .grid = list->grid};
+    plr_binding binding = {.node = node,
+                           .volume = list->volume->index,
+                           .grid = list->grid,
+                           .gated = list->view->general && node,
+                           .closed = list->off};
     return plr_recipe_builtin(&list->view->kitchen, list->recipe, path, name, binding,
                               list->attached, extra, count + 1);
 }
@@ -99,11 +104,11 @@ static const char *effect_of(const char *type) {
 }
 
 /* A style that meets light in a way of its own has its own lights: a light knows one way only. */
-static bool has_own_light(const plr_node *node) {
+static bool has_own_light(const plr_node *node, bool lighting) {
     if (plr_node_is(node, "ToneMappedVolumeStyle") || plr_node_is(node, "StippleVolumeStyle") ||
-        plr_style_has_shadows(node))
+        (lighting && plr_style_has_shadows(node, true)))
         return true;
-    if (!plr_node_is(node, "ShadedVolumeStyle") || !plr_node_bool(node, "lighting"))
+    if (!plr_node_is(node, "ShadedVolumeStyle") || !lighting)
         return false;
     const plr_node *material = plr_node_child(node, "material");
     return material && plr_node_is(material, "PhysicalMaterial");
@@ -112,7 +117,7 @@ static bool has_own_light(const plr_node *node) {
 static void add_lights(style_list *list, const plr_node *style, size_t attached) {
     size_t from = list->recipe->effects.count;
     plr_pass_lights(list->view, list->recipe, list->scope, attached, list->volume->index);
-    if (plr_style_has_shadows(style))
+    if (plr_style_has_shadows(style, true))
         plr_recipe_receive(list->view, list->recipe, from);
     plr_recipe_shadows(list->view, list->recipe, from, list->volume->index, NULL);
 }
@@ -130,22 +135,21 @@ static const plr_atlas_place *place_function(style_list *list, const plr_node *n
     return plr_atlas_add(textures, &list->view->arena, &list->view->volumes.functions, function);
 }
 
-static void add_style(style_list *list, plr_node *node) {
+static void add_style_lit(style_list *list, plr_node *node, bool lighting) {
     const char *type = node ? plr_node_type(node) : "OpacityMapVolumeStyle";
     bool map = strcmp(type, "OpacityMapVolumeStyle") == 0;
     list->leading = list->leading && map;
     const plr_atlas_place *function = place_function(list, node, map);
-    bool dark = !list->scope, lit = node && !dark && has_own_light(node);
+    bool dark = !list->scope, lit = node && !dark && has_own_light(node, lighting);
     plr_define defines[5] = {
         {"LEADING", list->leading ? "1" : "0"},
-        {"DIALECT_2005", list->view->desc.dialect == PLR_DIALECT_2005 ? "1" : "0"}};
-    size_t count = 2;
+        {"DIALECT_2005", list->view->desc.dialect == PLR_DIALECT_2005 ? "1" : "0"},
+        {"lighting", lighting && !dark ? "1" : "0"}};
+    size_t count = 3;
     if (function)
         defines[count++] = (plr_define){"IN_ATLAS", "1"};
     if (node && plr_node_is(node, "ISOSurfaceVolumeStyle"))
         defines[count++] = (plr_define){"HAS_material", "0"};
-    if (dark)
-        defines[count++] = (plr_define){"lighting", "0"};
     size_t done = add_effect(
         list, plr_arena_format(&list->view->arena, "volume/%s volume/style", effect_of(type)), type,
         node, defines, count);
@@ -158,6 +162,21 @@ static void add_style(style_list *list, plr_node *node) {
     list->recipe->bindings.items[done - 1].function = function;
     if (lit)
         add_lights(list, node, done);
+}
+
+/* With and without lighting a style is not the same: a general program has both. */
+static void add_style(style_list *list, plr_node *node) {
+    bool lighting = node && plr_node_field(node, "lighting") && plr_node_bool(node, "lighting");
+    if (!list->view->general || !list->scope || !node || !plr_node_field(node, "lighting")) {
+        add_style_lit(list, node, lighting);
+        return;
+    }
+    bool off = list->off;
+    for (int lit = 0; lit < 2; lit++) {
+        list->off = off || lighting != (lit == 1);
+        add_style_lit(list, node, lit == 1);
+    }
+    list->off = off;
 }
 
 /* ---- Styles around styles ---- */
@@ -211,7 +230,8 @@ static void check_weight(style_list *list, const plr_node *node, const char *nam
  * there is nothing to blend with, and the colour stays. */
 static void add_blended(style_list *list, plr_node *node) {
     plr_node *inside = plr_node_child(node, "renderStyle");
-    if (!any_enabled(inside))
+    bool off = list->off, empty = !any_enabled(inside);
+    if (empty && !list->view->general)
         return;
     list->leading = false;
     check_weight(list, node, "weightFunction1");
@@ -228,18 +248,17 @@ static void add_blended(style_list *list, plr_node *node) {
     }
     const plr_define defines[] = {{"HAS_OTHER", kept ? "1" : "0"},
                                   {"DRAFT_NAMES", has_draft_names(list->view) ? "1" : "0"}};
+    list->off = off || empty;
     size_t around = add_effect(list, "volume/BlendedVolumeStyle volume/grid", plr_node_type(node),
                                node, defines, 2);
+    list->off = off;
     style_list inner = open_around(list, around);
     list->grid = around_grid;
     if (kept)
         add_styles(&inner, inside);
 }
 
-static void add_styles(style_list *list, plr_node *node) {
-    if ((node && !plr_node_bool(node, "enabled")) ||
-        is_too_many(list, node ? node : list->volume->node))
-        return;
+static void add_enabled(style_list *list, plr_node *node) {
     if (node && plr_node_is(node, "ComposedVolumeStyle")) {
         const plr_field *styles = plr_node_field(node, "renderStyle");
         for (size_t i = 0; styles && i < styles->count; i++)
@@ -256,7 +275,56 @@ static void add_styles(style_list *list, plr_node *node) {
     }
 }
 
+static void add_styles(style_list *list, plr_node *node) {
+    bool off = list->off;
+    list->off = off || (node && !plr_node_bool(node, "enabled"));
+    if ((!list->off || list->view->general) && !is_too_many(list, node ? node : list->volume->node))
+        add_enabled(list, node);
+    list->off = off;
+}
+
 /* ---- Lists of styles ---- */
+
+enum {
+    MOST_MAPS = 256 /* of one volume; the same in GLSL */
+};
+
+static bool is_segment_enabled(const plr_node *node, size_t segment) {
+    const plr_field *enabled = plr_node_field(node, "segmentEnabled");
+    return !enabled || segment >= enabled->count || enabled->value.bools[segment];
+}
+
+/* How many numbers of segments or surfaces have something of their own; the last one stands for all
+ * above. */
+static size_t choice_count(const style_list *list, const plr_field *styles) {
+    const plr_field *enabled = plr_node_field(list->volume->node, "segmentEnabled");
+    if (list->volume->kind == PLR_VOLUME_SURFACES)
+        return styles->count;
+    return (enabled && enabled->count > styles->count ? enabled->count : styles->count) + 1;
+}
+
+/* In a general program all choices are drawn, and one effect behind them hides those that are
+ * switched off. Where they are too many the text has the switches, as in a specialised one. */
+static bool has_switches(const style_list *list, const plr_field *styles) {
+    return list->view->general && choice_count(list, styles) <= MOST_MAPS;
+}
+
+static void add_switches(style_list *list, const plr_field *styles) {
+    const plr_node *node = list->volume->node;
+    bool surfaces = list->volume->kind == PLR_VOLUME_SURFACES;
+    size_t count = choice_count(list, styles);
+    float(*maps)[4] = plr_arena_alloc(&list->view->arena, count * sizeof *maps);
+    for (size_t i = 0; i < count; i++) {
+        bool drawn = (i >= styles->count || any_enabled(styles->value.nodes[i])) &&
+                     (surfaces || is_segment_enabled(node, i));
+        memcpy(maps[i], (float[4]){0, 0, drawn ? 0 : -1, 0}, sizeof maps[i]);
+    }
+    plr_volume_state *state = &list->view->volumes.volumes[list->volume->index];
+    state->maps = maps;
+    state->map_count = count;
+    const plr_define on_surfaces = {"OF_SURFACES", surfaces ? "1" : "0"};
+    add_effect(list, "volume/SegmentSwitches", "Choice", NULL, &on_surfaces, 1);
+}
 
 /* The styles of one number; `others`: and of all above. */
 static void add_choice(style_list *list, int number, bool others, plr_node *style, bool drawn) {
@@ -278,27 +346,22 @@ static void add_surface_styles(style_list *list, const plr_field *styles) {
         add_styles(list, styles->count ? styles->value.nodes[0] : NULL);
         return;
     }
+    bool switches = has_switches(list, styles);
     for (size_t i = 0; i < styles->count; i++) {
         plr_node *style = styles->value.nodes[i];
-        add_choice(list, (int)i, i + 1 == styles->count, style, any_enabled(style));
+        add_choice(list, (int)i, i + 1 == styles->count, style, switches || any_enabled(style));
     }
-}
-
-static bool is_segment_enabled(const plr_node *node, size_t segment) {
-    const plr_field *enabled = plr_node_field(node, "segmentEnabled");
-    return !enabled || segment >= enabled->count || enabled->value.bools[segment];
+    if (switches)
+        add_switches(list, styles);
 }
 
 /* Segments whose styles are opacity maps and no more share one effect. False: they are not. */
 static bool add_segment_maps(style_list *list, const plr_field *styles) {
-    enum {
-        MOST_MAPS = 256 /* the same in GLSL */
-    };
     const plr_field *enabled = plr_node_field(list->volume->node, "segmentEnabled");
     size_t count = styles->count;
     if (enabled && enabled->count > count)
         count = enabled->count;
-    if (count == 0 || count >= MOST_MAPS)
+    if ((count == 0 && !list->view->general) || count >= MOST_MAPS)
         return false;
     float(*maps)[4] = plr_arena_alloc(&list->view->arena, (count + 1) * sizeof *maps);
     for (size_t i = 0; i <= count; i++) {
@@ -323,17 +386,21 @@ static bool add_segment_maps(style_list *list, const plr_field *styles) {
 static void add_segment_styles(style_list *list, const plr_field *styles) {
     const plr_node *node = list->volume->node;
     const plr_field *enabled = plr_node_field(node, "segmentEnabled");
+    bool switches = has_switches(list, styles);
     for (size_t i = 0; i < styles->count; i++) {
         plr_node *style = styles->value.nodes[i];
-        add_choice(list, (int)i, false, style, any_enabled(style) && is_segment_enabled(node, i));
+        add_choice(list, (int)i, false, style,
+                   switches || (any_enabled(style) && is_segment_enabled(node, i)));
     }
     if (styles->count)
         add_choice(list, (int)styles->count, true, NULL, true);
     else
         add_styles(list, NULL);
-    for (size_t i = styles->count; enabled && i < enabled->count; i++)
+    for (size_t i = styles->count; enabled && i < enabled->count && !switches; i++)
         if (!enabled->value.bools[i])
             add_choice(list, (int)i, false, NULL, false);
+    if (switches)
+        add_switches(list, styles);
 }
 
 static void add_all_segments(style_list *list, const plr_field *styles) {

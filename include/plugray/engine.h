@@ -81,6 +81,9 @@ typedef struct plr_view_desc {
      * takes, is cast in bricks, which are uploaded anew for each picture; with segments, a
      * projection or inside a BlendedVolumeStyle it is brought down by averaging, with a warning. */
     size_t max_voxel_bytes;
+    /* The scene is edited while it is looked at: plr_view_update does not wait for a compiler where
+     * general programs can draw the scene meanwhile; plr_view_build has the rest built. */
+    bool interactive;
     /* for plr_view_draw_here: the host draws opaque things, at which rays through volumes end */
     bool host_depths;
 } plr_view_desc;
@@ -99,6 +102,14 @@ PLR_API void plr_view_destroy(plr_view **view);
  * programs, textures, volumes. Needs GL if the view has an engine. False without memory: the view
  * is then to be destroyed. */
 PLR_API bool plr_view_update(plr_view *view, double time, plr_diags *diags);
+
+/* Of a view that is interactive: takes over programs that were built beside, and asks for those
+ * that the next edit may need. To be called between frames, while the user looks: it may take as
+ * long as some frames, where the driver compiles once more when it first draws. Waits so many
+ * milliseconds for what is being built, 0: not at all. Without a context to build in beside
+ * (plr_engine_desc.make_shared_current) it builds one program itself. How many are still to be
+ * built; it is to be called again then. Needs GL. */
+PLR_API size_t plr_view_build(plr_view *view, double wait_ms);
 
 typedef struct plr_draw_desc {
     int width, height; /* pixels, at least 1 */
@@ -222,6 +233,10 @@ typedef struct plr_view_stats {
     plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
     double samples;                        /* volume samples asked for in the last draw, at most */
+    /* of views that are interactive: programs that the last update waited for; that are being built
+     * beside; and whether those of the next picture are general */
+    size_t built, building;
+    bool general;
 } plr_view_stats;
 PLR_API void plr_view_get_stats(const plr_view *view, plr_view_stats *stats);
 

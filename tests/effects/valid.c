@@ -124,6 +124,7 @@ static void link_recipe(linked *l, const recipe *r) {
                          .attached = p->attached,
                          .only_attached = p->attached != 0,
                          .private_plugs = p->is_private,
+                         .gate = strstr(p->path, "general/Gate") ? "gate" : NULL,
                          .builtin = !p->text && !p->vertex_text && !p->geometry_text};
     }
     plr_link_desc desc = {.base = l->base,
@@ -312,6 +313,7 @@ static const plr_define scalar[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "0"}};
 static const plr_define labelled[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"PROJECTS", "0"}};
+static const plr_define of_segments[] = {{"OF_SURFACES", "0"}};
 static const plr_define rgba[] = {
     {"voxels_COMPONENTS", "4"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}};
 static const plr_define given_gradients[] = {{"voxels_COMPONENTS", "1"},
@@ -846,6 +848,15 @@ static const recipe recipes[] = {
      DEFINES(one_volume),
      .present = "usampler3D segmentMaps plugray_TransferFunctions",
      .absent = "gradient choiceNumber"},
+    {"switches of a general program",
+     "volume/raycaster",
+     {{.path = STEPPED, DEFINES(labelled)},
+      {.path = "volume/Hidden general/Gate", .attached = 1},
+      {.path = "volume/SegmentSwitches", DEFINES(of_segments), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(one_volume),
+     .present = "usampler3D segmentMaps plr1_gate",
+     .absent = "gradient choiceNumber plugray_TransferFunctions"},
     {"another volume blended",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},
