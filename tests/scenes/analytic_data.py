@@ -124,9 +124,10 @@ HALVINGS = (1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32)
 
 
 class Case:
-    """`truth(chord)` is the premultiplied colour of a ray, or None where nothing is said; `orders` what each method is expected to
-    show: a number, EXACT, BOUNDED (by `bound` times the step) or KINKED (by its square); `steps` the steps that show it, in voxels;
-    `tolerance` what EXACT allows a method beyond rounding."""
+    """`truth(chord)` is the premultiplied colour of a ray, or None where nothing is said; `orders` what
+    each method is expected to show: a number, EXACT, BOUNDED (by `bound` times the step) or KINKED (by its
+    square); `steps` the steps that show it, in voxels; `tolerance` what EXACT allows a method beyond
+    rounding."""
 
     def __init__(self, name, content, truth, box, files=None, orders=None, steps=HALVINGS, bound=None,
                  tolerance=None):
@@ -149,12 +150,15 @@ class Case:
 
 
 def mapped_case(name, data, files, box, extinction, color, truth, reference=REFERENCE, texels=TEXELS,
-                effects="", fields="", **more):
-    """A volume of `data` behind a transfer function."""
+                effects="", fields="", styles=(), **more):
+    """A volume of `data` behind a transfer function, and other styles behind that."""
     function = "function-" + name.replace(" ", "-") + ".nrrd"
     files = {function: function_file(table(extinction, color, reference, texels)), **files}
+    style = opacity_map(function)
+    if styles:
+        style = f"ComposedVolumeStyle {{ renderStyle [ {style} {' '.join(styles)} ] }}"
     content = box.place.around(volume(
-        data, opacity_map(function), effects,
+        data, style, effects,
         f"valueRange 0 1 opacityUnitDistance {reference!r} {box.fields()} {fields}", box.dimensions))
     return Case(name, content, truth, box, files, **more)
 
@@ -185,9 +189,9 @@ class Sheet:
 
     def text(self):
         count = len(self.cases)
+        keys, values = (" ".join(map(str, v)) for v in ([i / count for i in range(count)], range(count)))
         clock = (f"DEF CLOCK TimeSensor {{ loop TRUE cycleInterval {count} }}\n"
-                 f"DEF TURN IntegerSequencer {{ key [ {' '.join(repr(i / count) for i in range(count))} ] "
-                 f"keyValue [ {' '.join(map(str, range(count)))} ] }}\n"
+                 f"DEF TURN IntegerSequencer {{ key [ {keys} ] keyValue [ {values} ] }}\n"
                  "ROUTE CLOCK.fraction_changed TO TURN.set_fraction\n"
                  "ROUTE TURN.value_changed TO CASES.whichChoice\n")
         shown = "".join(f"Group {{ children [ {case.content} ] }}\n" for case in self.cases)

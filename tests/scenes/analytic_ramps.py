@@ -69,8 +69,9 @@ def sheet_case():
     low, high = ((texel - side) / 4095 for texel, side in zip(BAND, (0.5, -0.5)))
     # a sheet is as deep for any step, if it is met; what shines through it is about a half
     return ramp_case("V10 thin sheet", lambda s: DEEP if low < s < high else 0.0, lambda s: 1.0,
-                     truth.thin_sheet(DEEP, low, high), reference=0.002, bound=DEEP / 2, steps=[s / 4 for s in HALVINGS],
-                     orders={MIDPOINT: BOUNDED, TABLE: EXACT, CELLS: EXACT}, tolerance=READ)
+                     truth.thin_sheet(DEEP, low, high), reference=0.002, bound=DEEP / 2,
+                     steps=[s / 4 for s in HALVINGS], tolerance=READ,
+                     orders={MIDPOINT: BOUNDED, TABLE: EXACT, CELLS: EXACT})
 
 
 CASES = [

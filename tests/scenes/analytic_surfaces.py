@@ -230,8 +230,9 @@ def half_texel_case(count):
     box = Box((1, 1, 1), (count, 1, 1), place=Transform(rotation=(0, 1, 0, math.pi / 2)))
     row = Grid(box, values=[i / (count - 1) for i in range(count)])
     code = "void PLUG_volume_sample(inout VolumeSample s) { s.value *= s.value; }"
-    return projection_case(f"V13 mean of squares, {count} voxels", "AVERAGE", lambda chord: (2 * count + 1) / (6 * count),
-                           grid=row, code=code, box=box, orders={MIDPOINT: KINKED}, bound=1.2,
+    mean = (2 * count + 1) / (6 * count)
+    return projection_case(f"V13 mean of squares, {count} voxels", "AVERAGE", lambda chord: mean, grid=row,
+                           code=code, box=box, orders={MIDPOINT: KINKED}, bound=1.2,
                            steps=[0.9137 * s * count / 8 for s in HALVINGS])
 
 
@@ -241,8 +242,8 @@ PROJECTIONS = [
     projection_case("V16 greatest of a ramp", "MAX", lambda chord: max(on_ramp(chord)[:2])),
     projection_case("V16 least of a ramp", "MIN", lambda chord: min(on_ramp(chord)[:2])),
     projection_case("V16 mean of a ramp", "AVERAGE", lambda chord: sum(on_ramp(chord)[:2]) / 2),
-    projection_case("V16 greatest of a hill", "MAX", hill_truth, code=field_code("1.0 - (x - 0.04) * (x - 0.04) / 0.49"),
-                    orders=EXACT_ONCE),
+    projection_case("V16 greatest of a hill", "MAX", hill_truth, orders=EXACT_ONCE,
+                    code=field_code("1.0 - (x - 0.04) * (x - 0.04) / 0.49")),
     projection_case("V16 least of a valley", "MIN", lambda chord: 1 - hill_truth(chord),
                     code=field_code("(x - 0.04) * (x - 0.04) / 0.49"), orders=EXACT_ONCE),
     projection_case("V16 first peak above a threshold", "MAX", peaks_truth, code=PEAKS, threshold=0.5,

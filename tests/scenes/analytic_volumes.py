@@ -181,7 +181,8 @@ def placed_case(name, place, dimensions=DIMENSIONS, span=None, behind=None, cont
 
     file = f"placed-{name.replace(' ', '-')}.nrrd"
     case = mapped_case(f"V19 {name}", image3d(file), {file: sampled(box, value)}, box, lambda s: kappa * s,
-                       lambda s: COLOR, exact, reference, orders=ALWAYS, steps=(1, 0.3, 0.04), tolerance={"preintegrated": 2e-5})
+                       lambda s: COLOR, exact, reference, orders=ALWAYS, steps=(1, 0.3, 0.04),
+                       tolerance={"preintegrated": 2e-5})
     case.content += content
     case.beside = behind or case.beside
     return case
@@ -213,7 +214,8 @@ def from_near(origin, direction):
 SURFACE = ("Transform { translation 0 0 .03 scale 4 4 1 children "
            + quad("UnlitMaterial { emissiveColor .2 .6 .4 }") + "}\n")
 placed = Sheet(suite, [placed_case(name, place) for name, place in PLACES.items()]
-               + [placed_case("1 to 1000", Transform(rotation=TURN, scale=(1, 1, 1e-3)), (0.6, 0.5, 500.0), kappa=0.01, reference=1.0),
+               + [placed_case("1 to 1000", Transform(rotation=TURN, scale=(1, 1, 1e-3)), (0.6, 0.5, 500.0),
+                              kappa=0.01, reference=1.0),
                   placed_case("a surface inside", PLACES["turned"], span=until_plane, behind=BEHIND, content=SURFACE),
                   placed_case("a surface inside what is sheared", PLACES["sheared"], span=until_plane, behind=BEHIND,
                               content=SURFACE)], EYE)
