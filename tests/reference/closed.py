@@ -485,6 +485,11 @@ def error_bars():
                         for i, (a, b) in enumerate(zip(values.data, best.data)))
             suite.check(f"within {max(errors.data):.1e} {name}", worst <= 0, worst)
         suite.check(f"small {name}", max(usual.data) < 1e-7, max(usual.data))
+        several, bars = reference.truth([one], camera, (16, 16), threads=3)
+        suite.check(f"threads change nothing {name}",
+                    several.data == results[1][0].data and bars.data == usual.data)
+        suite.equal(f"counted {name}", [reference.report[k] for k in ("pixels", "not_converged")],
+                    [256, 0])
 
 
 @suite.case
@@ -502,6 +507,7 @@ def undecided():
         _, errors = reference.truth(volumes, camera, (1, 1), opaque=solids)
         unsure = name in ("face", "segments", "ball")
         suite.check(name, (errors.at(0, 0) == 1) == unsure, errors.at(0, 0))
+        suite.equal(f"{name}, counted", reference.report["not_converged"], int(unsure))
 
 
 @suite.case

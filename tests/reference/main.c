@@ -1,6 +1,7 @@
 /* plr-reference JOB -o VALUES.npy [--error ERROR.npy] [--pixels LIST] [--threads N] */
 #include "reference.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,7 +90,7 @@ static bool write_colors(const ref_scene *scene, const options *wanted, const re
 }
 
 static int cast_job(const options *wanted, const ref_scene *scene) {
-    size_t count, rough = 0;
+    size_t count, rough = 0; /* error bars above CONVERGED */
     ref_pixel *pixels =
         wanted->list ? listed_pixels(wanted->list, &count) : all_pixels(scene, &count);
     ref_color *colors = pixels ? calloc(count + 1, sizeof *colors) : NULL;
@@ -98,7 +99,7 @@ static int cast_job(const options *wanted, const ref_scene *scene) {
         double worst = 0;
         for (size_t i = 0; i < count; i++) {
             rough += !(colors[i].error <= CONVERGED);
-            worst = colors[i].error > worst ? colors[i].error : worst;
+            worst = fmax(worst, fmin(colors[i].error, 1e300)); /* infinity is no JSON */
         }
         printf("{\"pixels\": %zu, \"not_converged\": %zu, \"largest_error\": %.3g}\n", count, rough,
                worst);
