@@ -36,13 +36,15 @@ struct plr_slot {
         SLOT_COUNT,
         SLOT_TEXTURE,
         SLOT_VOXELS,
-        SLOT_LABELS,
+        SLOT_VOLUME_TEXTURE,
         SLOT_SURFACES,
         SLOT_MAPS,
         SLOT_FUNCTIONS,
+        SLOT_HULL,
         SLOT_DEPTHS
     } source;
     size_t depths;        /* of SLOT_DEPTHS: where in plr_frame its name is */
+    size_t offset;        /* of SLOT_VOLUME_TEXTURE: where in plr_volume_state it is */
     plr_texture *texture; /* NULL: none; the sampler reads black */
     unsigned unit;
     plr_texture_use use;
@@ -77,11 +79,22 @@ static bool find_depths(const char *name, plr_slot *slot) {
 
 /* What a volume has that is no field of a node. */
 static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
-    bool labels = strcmp(symbol->name, "labels") == 0;
+    static const struct {
+        const char *name;
+        size_t offset;
+    } textures[] = {{"labels", offsetof(plr_volume_state, labels)},
+                    {"integrals", offsetof(plr_volume_state, integrals)},
+                    {"leaps", offsetof(plr_volume_state, leaps)}};
+    slot->source = SLOT_VOLUME_TEXTURE;
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
+        if (strcmp(textures[i].name, symbol->name) == 0) {
+            slot->offset = textures[i].offset;
+            return true;
+        }
     bool surfaces = strcmp(symbol->name, "surfaces") == 0;
     bool maps = strcmp(symbol->name, "segmentMaps") == 0;
-    slot->source = labels ? SLOT_LABELS : surfaces ? SLOT_SURFACES : SLOT_MAPS;
-    return labels || surfaces || maps;
+    slot->source = surfaces ? SLOT_SURFACES : SLOT_MAPS;
+    return surfaces || maps;
 }
 
 /* Keys of transfer functions may be physical values of the voxels that the effect reads. */
@@ -105,6 +118,9 @@ static bool find_source(plr_kitchen *k, const plr_symbol *symbol, const plr_bind
         slot->source = SLOT_VOXELS;
         return true;
     }
+    slot->source = SLOT_HULL;
+    if (!binding && strcmp(symbol->name, "hull") == 0)
+        return true;
     if (builtin && slot->volume != PLR_NO_EFFECT && find_volume_source(symbol, slot))
         return true;
     if (slot->type->shape == SHAPE_SAMPLER && builtin && binding->shadow &&
@@ -319,9 +335,13 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
                                                     : slot->binding->grid->voxels,
                          slot->unit, PLR_USE_CLAMPED);
         break;
-    case SLOT_LABELS:
-        if (volume && volume->labels)
-            plr_texture_bind(textures, volume->labels, slot->unit, PLR_USE_CLAMPED);
+    case SLOT_VOLUME_TEXTURE:
+        if (volume) {
+            plr_texture *const *texture =
+                (plr_texture *const *)(const void *)((const char *)volume + slot->offset);
+            if (*texture)
+                plr_texture_bind(textures, *texture, slot->unit, PLR_USE_CLAMPED);
+        }
         break;
     case SLOT_SURFACES:
         if (volume)
@@ -341,6 +361,10 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
         if (values->functions)
             plr_texture_bind(textures, values->functions, slot->unit, PLR_USE_CLAMPED);
         break;
+    case SLOT_HULL:
+        if (values->hull)
+            set_floats(gl, slot, values->hull->count, values->hull->points[0], false);
+        return;
     case SLOT_DEPTHS:
         gl->ActiveTexture(GL_TEXTURE0 + slot->unit);
         gl->BindTexture(GL_TEXTURE_2D,

@@ -76,7 +76,21 @@ typedef struct plr_volume_state {
     float (*maps)[4]; /* of segments that have a transfer function and no more; or NULL */
     size_t map_count;
     uint64_t hash; /* of the voxels */
+    const struct plr_blocks *blocks; /* of voxels of one component; or NULL */
+    /* Of a volume that one transfer function alone makes visible, and how far it is from each block
+     * to the next where it makes anything visible; or NULL. */
+    struct plr_table *table;
+    plr_texture *integrals; /* of the table */
+    float seen[2];          /* outside of this open interval the table has nothing */
+    plr_texture *leaps;
 } plr_volume_state;
+
+/* A convex outline in the picture. */
+#define PLR_MOST_HULL 48
+typedef struct plr_hull {
+    float points[PLR_MOST_HULL][2]; /* clip coordinates */
+    int count;
+} plr_hull;
 
 /* Everything that the value of a uniform may depend on. */
 typedef struct plr_values {
@@ -86,6 +100,7 @@ typedef struct plr_values {
     const plr_volume_state *volumes;
     size_t volume_count;
     plr_texture *functions; /* the transfer functions of the volumes, in one texture */
+    const plr_hull *hull;   /* of rays through volumes; or NULL */
 } plr_values;
 
 /* One uniform of a GL program and where its value comes from. */

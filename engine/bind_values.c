@@ -161,6 +161,9 @@ static void v_transfer_place(const plr_known_context *c, float *out) {
 static void v_visible_values(const plr_known_context *c, float *out) {
     memcpy(out, c->binding->function->visible, sizeof c->binding->function->visible);
 }
+static void v_seen_values(const plr_known_context *c, float *out) {
+    memcpy(out, c->volume->seen, sizeof c->volume->seen);
+}
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
 }
@@ -269,6 +272,7 @@ static const plr_known known[] = {
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
     {"segmentMapCount", OWNER_VOLUME, v_map_count},
     {"transferPlace", OWNER_FUNCTION, v_transfer_place},
+    {"seenValues", OWNER_VOLUME, v_seen_values},
     {"visibleValues", OWNER_FUNCTION, v_visible_values},
     {"voxelLength", OWNER_VOLUME, v_voxel_length},
     {"approach", OWNER_VOLUME, v_approach},

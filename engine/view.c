@@ -5,6 +5,7 @@
 
 #include "engine/dialect.h"
 #include "engine/frame.h"
+#include "engine/gpu_timer.h"
 #include "engine/ignored.h"
 #include "engine/pick.h"
 #include "engine/state.h"
@@ -54,6 +55,7 @@ static void upload(plr_view *view) {
 }
 
 bool plr_view_make(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags) {
+    view->lights = (plr_light_answers){0};
     plr_flatten(&view->arena, view->scene, eye_to_world, &view->flat, diags);
     view->viewpoint = plr_view_chosen(view, &view->flat);
     if (!view->viewpoint) {
@@ -181,16 +183,30 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     float *one = samples > 1 ? malloc(count * sizeof *one) : picture->pixels;
     plr_frame frame;
     bool fine = one != NULL;
+    const plr_gl *gl = &view->engine->gl;
+    plr_gpu_timer timer;
+    bool timed = plr_gpu_timer_create(&timer, gl);
+    if (timed)
+        plr_gpu_timer_start(&timer, gl);
     if (fine)
         plr_targets_draw(view, NULL);
     for (int sample = 0; fine && sample < samples; sample++) {
         plan(view, desc, plr_frame_reversed(view), &frame);
         plr_frame_jitter(&frame, sample, samples);
+        if (timed && sample > 0)
+            plr_gpu_timer_start(&timer, gl);
         draw_sample(view, &frame);
+        if (timed)
+            plr_gpu_timer_stop(&timer, gl);
         fine = plr_framebuffer_read(&view->framebuffer, one);
+        if (timed)
+            plr_gpu_timer_add(&timer, gl);
         for (size_t i = 0; fine && samples > 1 && i < count; i++)
             picture->pixels[i] += one[i] / (float)samples;
     }
+    view->stats.gpu_ms = timed ? timer.ms : 0;
+    if (timed)
+        plr_gpu_timer_destroy(&timer, gl);
     if (samples > 1)
         free(one);
     return fine;
@@ -311,4 +327,17 @@ void plr_view_get_stats(const plr_view *view, plr_view_stats *stats) {
         return;
     plan(view, &desc, false, &frame);
     stats->samples = plr_volume_pass_samples(view, &frame);
+}
+
+/* What says most about a picture: the plan that promises least. */
+void plr_view_get_plan(const plr_view *view, plr_plan *plan) {
+    const plr_volume_pass *pass = &view->volumes;
+    *plan = (plr_plan){.why = "there are no volumes"};
+    for (size_t i = 0; i < pass->cast_count; i++) {
+        const plr_plan *one = &pass->casts[i].plan;
+        bool worse = (plan->bounded && !one->bounded) ||
+                     (plan->bounded == one->bounded && (one->value < 0 || one->value > plan->value));
+        if (i == 0 || worse)
+            *plan = *one;
+    }
 }

@@ -4,6 +4,7 @@
 
 #include "engine/bind.h"
 #include "engine/framebuffer.h"
+#include "engine/light_strength.h"
 #include "engine/mesh.h"
 #include "engine/surface_state.h"
 #include "engine/transfer_atlas.h"
@@ -37,6 +38,7 @@ typedef struct plr_cast {
     bool drawn;               /* in this frame */
     bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
     struct plr_cast *picking; /* the same that picks; NULL: not asked for yet */
+    plr_plan plan;            /* how rays are integrated */
 } plr_cast;
 
 /* Voxels that outlive a change of the scene. */
@@ -50,6 +52,7 @@ typedef struct plr_kept_volume {
     plr_matrix place;
     double dimensions[3];
     uint64_t hash; /* of the voxels */
+    const struct plr_blocks *blocks; /* of voxels of one component that are cast as a whole */
 } plr_kept_volume;
 
 /* All volumes: most in one cast; one whose author decides how it accumulates is a layer of its own.
@@ -162,6 +165,15 @@ typedef struct plr_projection {
     plr_matrix world_to_clip;
 } plr_projection;
 
+/* What general programs have room for, more than the scene has. */
+typedef enum plr_slot_kind {
+    PLR_SLOT_DIRECTIONAL,
+    PLR_SLOT_POINT,
+    PLR_SLOT_SPOT,
+    PLR_SLOT_PLANE,
+    PLR_SLOT_KINDS
+} plr_slot_kind;
+
 struct plr_view {
     plr_arena arena;     /* of worlds: renewed when the scene changes */
     plr_arena lasting;   /* of what is kept then: textures, programs, sources */
@@ -172,6 +184,7 @@ struct plr_view {
     struct {
         bool asked, known; /* its general programs were asked for; and are built */
         uint64_t of;       /* what the scene was then */
+        size_t slots[PLR_SLOT_KINDS], most[PLR_SLOT_KINDS]; /* see engine/general.h */
     } general_state;
     plr_matrix eye_to_world; /* of the last look at the scene */
     plr_viewpoint first; /* where the first look at a time comes from */
@@ -196,6 +209,7 @@ struct plr_view {
     } kept_volumes;
     plr_projection projections[8];
     unsigned next_projection; /* to be replaced */
+    plr_light_answers lights;
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_spare_depths spare;

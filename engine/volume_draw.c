@@ -1,5 +1,6 @@
 /* Casting rays through volumes, in a frame. */
 #include "engine/frame.h"
+#include "engine/volume_hull.h"
 #include "engine/volume_pass.h"
 
 #include <math.h>
@@ -50,7 +51,10 @@ static void run_once(void *user) {
     const plr_gl *gl = &view->engine->gl;
     gl->Disable(GL_CULL_FACE);
     gl->UseProgram(cast->pass.built->name);
-    plr_values values = {.frame = frame,
+    plr_hull hull;
+    plr_volume_hull(pass->volumes, cast->members, cast->count, frame, &hull);
+    plr_values values = {.hull = &hull,
+                         .frame = frame,
                          .view = view,
                          .to_world = pass->volumes[cast->members[0]].to_world,
                          .volumes = pass->volumes,
@@ -58,7 +62,7 @@ static void run_once(void *user) {
                          .functions = pass->functions.texture};
     plr_bind_set(gl, &view->textures, &cast->pass.slots, &values);
     gl->BindVertexArray(view->empty_vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3 * (hull.count - 2));
 }
 
 static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {

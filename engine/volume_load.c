@@ -7,6 +7,7 @@
 
 #include "engine/update.h"
 #include "engine/volume.h"
+#include "engine/volume_blocks.h"
 #include "engine/volume_geometry.h"
 
 enum {
@@ -236,6 +237,8 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     }
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
+    if (r.voxels.components == 1 && view->engine && !kept->grid.brick_sides[0])
+        kept->blocks = plr_blocks_make(&view->lasting, &r.voxels);
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
     kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;
     kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);
@@ -283,6 +286,7 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
     state->labels = kept->labels;
     state->file_place = kept->place;
     state->hash = kept->hash;
+    state->blocks = kept->blocks;
     plr_volume_move(state, leaf);
     measure(view, state, kept->full_size);
     return state->voxel > 0;

@@ -7,6 +7,7 @@
 
 #include "engine/dialect.h"
 #include "engine/general.h"
+#include "engine/volume_plan.h"
 
 /* ---- Which volumes there are ---- */
 
@@ -174,6 +175,7 @@ static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) 
         plr_cast *rest = add_cast(view);
         memcpy(rest->members, cast->members + kept, (cast->count - kept) * sizeof *rest->members);
         rest->count = cast->count - kept;
+        rest->plan = cast->plan;
         cast->count = kept;
         plr_diags_add(diags, PLR_CODE_LAYERED,
                       plr_node_place(view->volumes.volumes[rest->members[0]].node),
@@ -200,6 +202,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         split_layers(view, use.layers, diags);
     for (size_t i = 0; i < pass->cast_count; i++) {
         plr_cast *cast = &pass->casts[i];
+        plr_cast_plan(view, cast, !use.accumulates);
         plr_cast_build_recipe(view, cast, !use.accumulates, NULL);
         split_by_textures(view, cast, diags);
         plr_cast_build_recipe(view, cast, !use.accumulates, diags);

@@ -29,6 +29,10 @@ bool plr_volume_has_styles(const plr_volume_state *state);
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
                            const plr_scope *lights, plr_diags *diags);
 
+/* Where the transfer function of an opacity map is among those of all volumes; NULL: the default
+ * ramp. NULL where it needs a texture of its own. */
+const plr_atlas_place *plr_style_place(plr_view *view, const plr_node *map, const plr_grid *grid);
+
 /* ---- Bricks (volume_bricks.c) ---- */
 
 /* The sides of bricks that fit into textures of so many texels a side (0: any) and so many bytes.

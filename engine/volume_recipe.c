@@ -17,7 +17,8 @@ static const char *const volume_units[] = {
         "volume/Volume volume/grid volume/levels volume/crossings volume/surfaces",
     [PLR_VOLUME_PROJECTED] = "volume/Volume volume/grid volume/projection"};
 
-static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state) {
+static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
+                                bool segments) {
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
@@ -27,8 +28,9 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
-    return plr_recipe_builtin(&view->kitchen, recipe, volume_units[state->kind],
-                              plr_node_type(state->node),
+    const char *units =
+        segments ? "volume/Volume volume/grid volume/segments" : volume_units[state->kind];
+    return plr_recipe_builtin(&view->kitchen, recipe, units, plr_node_type(state->node),
                               (plr_binding){.node = state->node,
                                             .to_world = state->to_world,
                                             .place = &state->to_world,
@@ -55,17 +57,20 @@ static void add_plane(plr_view *view, plr_recipe *recipe, plr_node *plane, const
 void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached) {
     const plr_leaf *leaf = view->volumes.leaves[volume];
     const plr_field *own = plr_node_field(leaf->node, "clipPlanes");
+    size_t before = recipe->effects.count;
     for (size_t i = 0; own && i < own->count; i++)
         if (own->value.nodes[i])
             add_plane(view, recipe, own->value.nodes[i], &leaf->to_world,
                       !plr_node_bool(own->value.nodes[i], "enabled"), volume, attached);
-    if (plr_node_bool(leaf->node, "ignoreClipPlanes"))
-        return;
-    for (const plr_scope *scope = leaf->scope; scope; scope = scope->outer)
+    bool alone = plr_node_bool(leaf->node, "ignoreClipPlanes");
+    for (const plr_scope *scope = alone ? NULL : leaf->scope; scope; scope = scope->outer)
         for (size_t i = 0; i < scope->clip_planes.count; i++) {
             const plr_placed *plane = &scope->clip_planes.items[i];
             add_plane(view, recipe, plane->node, &plane->to_world, plane->off, volume, attached);
         }
+    size_t count = recipe->effects.count - before;
+    for (size_t i = plr_general_spares(view, PLR_SLOT_PLANE, count); i > 0; i--)
+        add_plane(view, recipe, NULL, &leaf->to_world, true, volume, attached);
 }
 
 static void add_fog(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, size_t volume,
@@ -82,13 +87,15 @@ static void add_fog(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, si
                            attached, defines, sizeof defines / sizeof *defines);
 }
 
-static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, size_t *attached,
-                       plr_diags *diags) {
+static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, bool segments,
+                       size_t *attached, plr_diags *diags) {
     const plr_volume_state *state = &view->volumes.volumes[index];
     const plr_leaf *leaf = view->volumes.leaves[index];
-    *attached = add_volume_effect(view, recipe, state);
+    *attached = add_volume_effect(view, recipe, state, segments);
     plr_volume_add_planes(view, recipe, index, *attached);
     plr_general_hide(view, recipe, state->hidden, index, *attached);
+    if (segments)
+        return; /* a table has the styles */
     plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, diags);
     add_fog(view, recipe, leaf, index, *attached);
     size_t from = recipe->effects.count;
@@ -156,6 +163,11 @@ static bool any_writes_depth(const plr_view *view, const plr_cast *cast) {
     return false;
 }
 
+static bool is_segmented(const plr_cast *cast) {
+    return !cast->picks && (cast->plan.method == PLR_METHOD_PREINTEGRATED ||
+                            cast->plan.method == PLR_METHOD_CELLS);
+}
+
 static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
     plr_recipe *recipe = &cast->pass.recipe;
     cast->writes_depth = !cast->picks && any_writes_depth(view, cast);
@@ -167,6 +179,9 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         const char *name;
         int value;
     } defines[] = {
+        {"SEGMENTS", is_segmented(cast)},
+        {"CELLS", cast->plan.method == PLR_METHOD_CELLS},
+        {"LEAPS", cast->plan.leaps},
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
         {"HAS_EVENTS", events},
         {"HAS_STEPS", has_kind(view, cast, false)},
@@ -199,7 +214,7 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     define_loop(view, cast, early_end);
     size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
     for (size_t i = 0; i < cast->count; i++)
-        add_volume(view, recipe, cast->members[i], &attached[i], diags);
+        add_volume(view, recipe, cast->members[i], is_segmented(cast), &attached[i], diags);
     bool skips_clear = true;
     for (size_t i = 0; i < cast->count; i++)
         skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);
@@ -210,5 +225,6 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     for (size_t i = 0; i < cast->count; i++)
         add_authors(view, recipe, cast->members[i], attached[i]);
     add_group_effects(view, cast, attached);
-    plr_recipe_define(k, recipe, "SKIPS", plr_cast_skips(view, cast, early_end));
+    plr_recipe_define(k, recipe, "SKIPS",
+                      !is_segmented(cast) && plr_cast_skips(view, cast, early_end));
 }

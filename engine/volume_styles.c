@@ -135,6 +135,11 @@ static const plr_atlas_place *place_function(style_list *list, const plr_node *n
     return plr_atlas_add(textures, &list->view->arena, &list->view->volumes.functions, function);
 }
 
+const plr_atlas_place *plr_style_place(plr_view *view, const plr_node *map, const plr_grid *grid) {
+    style_list list = {.view = view, .grid = grid};
+    return place_function(&list, map, true);
+}
+
 static void add_style_lit(style_list *list, plr_node *node, bool lighting) {
     const char *type = node ? plr_node_type(node) : "OpacityMapVolumeStyle";
     bool map = strcmp(type, "OpacityMapVolumeStyle") == 0;

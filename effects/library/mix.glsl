@@ -20,14 +20,12 @@ void volume_mix_add(inout VolumeMix mixed, const in vec4 color, const in float l
 /* What an optical depth hides: 1 - exp(-depth). That loses its digits where little is hidden, as in
  * many short steps: there the series. */
 float opacity_of_depth(const in float depth) {
-    if (depth < 0.02)
-        return depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0)));
-    return 1.0 - exp(-depth);
+    float few = depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0)));
+    return depth < 0.02 ? few : 1.0 - exp(-depth);
 }
 
 /* Straight colour and the opacity of the step. */
 vec4 volume_mix_color(const in VolumeMix mixed) {
-    if (!(mixed.sum.a > 0.0))
-        return vec4(0.0);
-    return vec4(mixed.sum.rgb / mixed.sum.a, mixed.opaque ? 1.0 : opacity_of_depth(mixed.sum.a));
+    vec4 color = vec4(mixed.sum.rgb / mixed.sum.a, mixed.opaque ? 1.0 : opacity_of_depth(mixed.sum.a));
+    return mixed.sum.a > 0.0 ? color : vec4(0.0);
 }

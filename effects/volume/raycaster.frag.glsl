@@ -30,6 +30,10 @@ out vec4 plugray_FragColor;
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
 
+#if SEGMENTS
+const int CHUNK = 8; /* segments that are looked at together; the same in segments.glsl */
+#endif
+
 #if SKIPS
 const int LOOK_AHEAD = 32; /* steps, one a bit */
 #if MIXES
@@ -49,6 +53,8 @@ int piece_first[PIECES]; /* of the steps ahead */
 int piece_shift[PIECES]; /* from the number of a step ahead to that in its part */
 #endif
 
+#endif
+#if SKIPS || SEGMENTS
 int lowest_bit(uint bits) {
     return (floatBitsToInt(float(bits & (0u - bits))) >> 23) - 127;
 }
@@ -194,7 +200,100 @@ void main() {
     float depth = NOWHERE;
 #endif
     float t = NOWHERE;
-#if MIXES && SKIPS
+#if SEGMENTS
+    /* From one entry or exit to the next the ray is cut into segments; between their ends volumes know
+     * what lies there. */
+    bool ended = false;
+#if MIXES
+    /* PLUG: volume_first (t) */
+    while (t < NOWHERE && !ended) {
+#endif
+        float t_next = NOWHERE;
+        float step_length = NOWHERE;
+        /* PLUG: volume_part (t, t_next, step_length) */
+#if MIXES
+        if (t_next >= NOWHERE)
+            break;
+        int steps = step_length < NOWHERE ? max(step_count(t_next - t, step_length), 1) : 1;
+#else
+        int steps = step_count(t_next - t, step_length);
+#endif
+        int i = 0;
+#if LEAPS
+        while (i < steps) {
+            float at = t + float(i) * step_length;
+            int leap = steps - i;
+            /* PLUG: volume_leap (at, step_length, leap) */
+            if (leap == 0)
+                break;
+            i += leap;
+        }
+#endif
+        while (i < steps && !ended) {
+            /* most segments cannot be seen: that is found out first for some, at the least cost */
+            int first = i;
+            uint visible = 0u;
+            float from = t + float(i) * step_length;
+            /* PLUG: volume_chunk_begin (from) */
+            for (int k = 0; k < CHUNK; k++) {
+                float to = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
+                i++;
+                /* PLUG: volume_chunk (visible, k, to) */
+            }
+            int left = steps - first;
+            if (left < CHUNK)
+                visible &= (1u << uint(left)) - 1u;
+            while (visible != 0u) {
+                int k = lowest_bit(visible);
+                visible &= visible - 1u;
+                int n = first + k;
+                float begin = t + float(n) * step_length;
+                float end = n + 1 < steps ? t + float(n + 1) * step_length : t_next;
+                VolumeMix mixed = VolumeMix(vec4(0.0), false);
+                float span = end - begin;
+                /* PLUG: volume_segment (mixed, k, begin, span) */
+                VolumeSample s;
+                vec4 color = volume_mix_color(mixed);
+#if READS(position_eye)
+                s.position_eye = origin_eye + (begin + 0.5 * span) * direction_eye;
+#endif
+#if READS(step_length)
+                s.step_length = span;
+#endif
+#if READS(volume)
+                s.volume = -1;
+#endif
+                /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+                if (depth >= NOWHERE && accumulated.a > 0.0)
+                    depth = begin + 0.5 * span;
+#endif
+#if WRITES_DEPTH
+                note_end(accumulated.a, end);
+#endif
+#if EARLY_END
+                if (is_ended(accumulated.a)) {
+                    ended = true;
+                    break;
+                }
+#endif
+            }
+#if LEAPS
+            while (i < steps) {
+                float at = t + float(i) * step_length;
+                int leap = steps - i;
+                /* PLUG: volume_leap (at, step_length, leap) */
+                if (leap == 0)
+                    break;
+                i += leap;
+            }
+#endif
+        }
+#if MIXES
+        t = t_next;
+    }
+#endif
+#elif MIXES && SKIPS
     /* Most samples of most volumes cannot be seen. The way is planned for some steps ahead; each volume
      * finds out at the least cost where it can be seen, and mixes itself into those steps alone. */
     bool ended = false;

@@ -1,7 +1,9 @@
 #version 330 core
-/* One triangle that covers the viewport; no attributes. */
+/* A fan of triangles over all pixels in which a volume may be seen; no attributes. */
+
+uniform vec2 hull[48]; /* convex, in clip coordinates; as many in C: PLR_MOST_HULL */
 
 void main() {
-    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
+    int corner = gl_VertexID % 3;
+    gl_Position = vec4(hull[corner == 0 ? 0 : gl_VertexID / 3 + corner], 0.0, 1.0);
 }

@@ -67,13 +67,26 @@ PLR_API bool plr_engine_default_cache(char *buffer, size_t size);
 /* ---- A scene made ready
  * ----------------------------------------------------------------------------- */
 
+/* How the integral along a ray is taken. */
+typedef enum plr_method {
+    PLR_METHOD_AUTO,          /* the planner's choice; with fixed steps: midpoint */
+    PLR_METHOD_MIDPOINT,      /* one sample in the middle of each step */
+    PLR_METHOD_PREINTEGRATED, /* between two samples the value is linear: integrals over it */
+    PLR_METHOD_CELLS          /* in each cell of voxels the value is a cubic: cut until it is exact */
+} plr_method;
+
 typedef struct plr_view_desc {
     /* NULL or "": the first of the file; else a number from 1, a DEF name or a description */
     const char *viewpoint;
     double time; /* seconds after the scene was loaded */
     double
         aspect;  /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
-    double step; /* sample distance in voxels (geometric mean of the sides); 0: 0.5 */
+    /* How far pictures may be from the true ones in any channel of any pixel; 0: 1/255. What comes
+     * of it is in plr_view_get_plan. */
+    double error;
+    double step; /* fixed sample distance in voxels (geometric mean of the sides); 0: by `error` */
+    plr_method method; /* what cannot be sampled so is sampled otherwise; the plan says so */
+    bool no_leaping;   /* look at every sample, also where nothing can be seen; same pictures */
     /* of volume nodes; 0: found out, 2005, or 1: final. It sets defaults of the scene's fields: of
      * views of one scene, the one that was made or updated last decides. */
     int dialect;
@@ -232,13 +245,28 @@ typedef struct plr_phase {
 typedef struct plr_view_stats {
     plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
-    double samples;                        /* volume samples asked for in the last draw, at most */
+    double gpu_ms;  /* of the last draw, by the GPU's clock; 0: there is no GPU */
+    double samples; /* volume samples asked for in the last draw, at most */
     /* of views that are interactive: programs that the last update waited for; that are being built
      * beside; and whether those of the next picture are general */
     size_t built, building;
     bool general;
 } plr_view_stats;
 PLR_API void plr_view_get_stats(const plr_view *view, plr_view_stats *stats);
+
+/* ---- The plan ---- */
+
+/* How the volumes of a view are sampled, and what that means for the error of pictures. */
+typedef struct plr_plan {
+    double asked;    /* the error; 0: fixed steps were asked for */
+    bool bounded;    /* proven; else estimated */
+    double value;    /* the greatest error of a channel; of fixed steps unknown: negative */
+    plr_method method;
+    double step;     /* voxels; of PLR_METHOD_CELLS the longest piece */
+    bool leaps;      /* over blocks where nothing can be seen */
+    const char *why; /* in words, one sentence; owned by the view, until it is updated */
+} plr_plan;
+PLR_API void plr_view_get_plan(const plr_view *view, plr_plan *plan);
 
 /* ---- What volumes hold ---- */
 

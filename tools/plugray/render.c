@@ -19,7 +19,8 @@ typedef struct render_job {
     const char *path; /* of the picture, or NULL */
     view_options look;
     plr_draw_desc draw;
-    double step;
+    double step, error;
+    plr_method method;
     frame_plan frames;
     long repeat; /* 0: one draw without a warm-up */
     int stats;   /* one of the below */
@@ -88,6 +89,46 @@ static bool read_outputs(render_job *job) {
     return true;
 }
 
+/* An error as a number or as a fraction, "1/255". */
+static bool read_error(render_job *job) {
+    const char *text = option_value(job->arguments, OPTION_ERROR_BOUND);
+    if (!text)
+        return true;
+    char *after;
+    double over = 1, error = strtod(text, &after);
+    if (after > text && *after == '/' && after[1]) {
+        const char *under = after + 1;
+        over = strtod(under, &after);
+        after = after > under ? after : (char *)text;
+    }
+    error /= over;
+    if (after > text && !*after && error > 0 && error <= 1) {
+        job->error = error;
+        return true;
+    }
+    usage_error(job->arguments,
+                "--error takes a number above 0 and at most 1, or a fraction, not '%s'", text);
+    return false;
+}
+
+static bool read_sampling(render_job *job) {
+    const tool_arguments *a = job->arguments;
+    const char *text = option_value(a, OPTION_METHOD);
+    int index = text ? word_index(option_words(OPTION_METHOD), text) : PLR_METHOD_AUTO;
+    if (index < 0) {
+        usage_error(a, "--method takes %s, not '%s'", option_words(OPTION_METHOD), text);
+        return false;
+    }
+    job->method = (plr_method)index;
+    if (!read_error(job) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step))
+        return false;
+    if (job->error > 0 && job->step > 0) {
+        usage_error(a, "--error and --step exclude each other");
+        return false;
+    }
+    return true;
+}
+
 static bool read_options(render_job *job) {
     const tool_arguments *a = job->arguments;
     long samples = 1;
@@ -97,7 +138,7 @@ static bool read_options(render_job *job) {
     job->draw = (plr_draw_desc){.width = job->look.width, .height = job->look.height};
     job->frames.start = job->look.time;
     if (!check_pixels(job, OPTION_PROBE, "--probe") || !check_pixels(job, OPTION_PICK, "--pick") ||
-        !frames_read(a, &job->frames) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step) ||
+        !frames_read(a, &job->frames) || !read_sampling(job) ||
         !option_integer(a, OPTION_SAMPLES, 1, 4096, &samples) ||
         !option_integer(a, OPTION_REPEAT, 1, 1000000, &job->repeat))
         return false;
@@ -239,6 +280,9 @@ int command_render(const tool_arguments *arguments) {
     if (status == STATUS_FINE) {
         view_options_apply(&job.look, &job.scene.view);
         job.scene.view.step = job.step;
+        job.scene.view.error = job.error;
+        job.scene.view.method = job.method;
+        job.scene.view.no_leaping = option_value(arguments, OPTION_NO_LEAPING) != NULL;
         if (job.scene.scene)
             status = render(&job);
         int told = tool_scene_finish(&job.scene);

@@ -34,6 +34,18 @@ void stats_text(FILE *out, const render_stats *stats) {
     }
 }
 
+static void print_or_null(FILE *out, bool known, double value) {
+    if (known)
+        json_number(out, value);
+    else
+        fputs("null", out);
+}
+
+const char *method_name(plr_method method) {
+    static const char *const names[] = {"auto", "midpoint", "preintegrated", "cells"};
+    return names[method];
+}
+
 void stats_json(FILE *out, const render_stats *stats) {
     plr_phase phases[PHASE_COUNT];
     plr_view_stats view = get_phases(stats, phases);
@@ -53,7 +65,15 @@ void stats_json(FILE *out, const render_stats *stats) {
         json_string(out, info->name);
         fprintf(out, ", \"instructions\": %u, \"fetches\": %u}", info->instructions, info->fetches);
     }
-    /* This version bounds no error: nothing is asked, nothing is claimed. */
-    fputs("\n  ],\n  \"error\": {\"asked\": null, \"kind\": \"estimated\", \"value\": null}\n}\n",
-          out);
+    plr_plan plan;
+    plr_view_get_plan(stats->view, &plan);
+    fputs("\n  ],\n  \"error\": {\"asked\": ", out);
+    print_or_null(out, plan.asked > 0, plan.asked);
+    fprintf(out, ", \"kind\": \"%s\", \"value\": ", plan.bounded ? "bounded" : "estimated");
+    print_or_null(out, plan.value >= 0, plan.value);
+    fprintf(out, "},\n  \"plan\": {\"method\": \"%s\", \"step\": ", method_name(plan.method));
+    json_number(out, plan.step);
+    fprintf(out, ", \"leaps\": %s, \"why\": ", plan.leaps ? "true" : "false");
+    json_string(out, plan.why);
+    fputs("}\n}\n", out);
 }

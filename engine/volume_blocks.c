@@ -1,0 +1,129 @@
+#include "engine/volume_blocks.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t plr_blocks_count(const plr_blocks *blocks) {
+    return (size_t)blocks->size[0] * blocks->size[1] * blocks->size[2];
+}
+
+/* Puts the least and the greatest value of each run of voxels that a block reaches along one axis
+ * in the place of the voxels: `count` values `stride` apart become `blocks` ones. */
+static void reduce_line(const float *from, size_t stride, uint32_t count, uint32_t blocks,
+                        bool greatest, float *out) {
+    for (uint32_t b = 0; b < blocks; b++) {
+        /* cells 4 b .. 4 b + 3 lie between voxels 4 b - 1 and 4 b + 3 */
+        uint32_t first = b * PLR_BLOCK_CELLS, last = first + PLR_BLOCK_CELLS - 1;
+        first = first > 0 ? first - 1 : 0;
+        last = last < count ? last : count - 1;
+        float found = from[first * stride];
+        for (uint32_t i = first + 1; i <= last; i++) {
+            float value = from[i * stride];
+            if (greatest ? value > found : value < found)
+                found = value;
+        }
+        out[b * stride] = found;
+    }
+}
+
+/* One end of the ranges: axis after axis, in place of a copy of the voxels. */
+static void reduce(const plr_image *image, const uint32_t size[3], bool greatest, float *values) {
+    const uint32_t count[3] = {image->width, image->height, image->depth};
+    uint32_t now[3] = {count[0], count[1], count[2]};
+    const size_t strides[3] = {1, count[0], (size_t)count[0] * count[1]};
+    float *line = malloc(sizeof *line * ((size_t)count[0] + count[1] + count[2]));
+    for (int axis = 0; line && axis < 3; axis++) {
+        int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        for (uint32_t j = 0; j < now[v]; j++)
+            for (uint32_t i = 0; i < now[u]; i++) {
+                float *start = values + i * strides[u] + j * strides[v];
+                for (uint32_t k = 0; k < count[axis]; k++)
+                    line[k] = start[k * strides[axis]];
+                float *out = line + count[axis];
+                reduce_line(line, 1, count[axis], size[axis], greatest, out);
+                for (uint32_t k = 0; k < size[axis] && k < count[axis]; k++)
+                    start[k * strides[axis]] = out[k];
+            }
+        now[axis] = size[axis] < count[axis] ? size[axis] : count[axis];
+    }
+    free(line);
+}
+
+static void fill_voxels(const plr_image *image, float *values) {
+    size_t count = plr_image_level_samples(image, 0);
+    if (image->type == PLR_UNORM8)
+        for (size_t i = 0; i < count; i++)
+            values[i] = ((const uint8_t *)image->samples)[i] / 255.0f;
+    else if (image->type == PLR_UNORM16)
+        for (size_t i = 0; i < count; i++)
+            values[i] = ((const uint16_t *)image->samples)[i] / 65535.0f;
+    else
+        memcpy(values, image->samples, count * sizeof *values);
+}
+
+plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image) {
+    const uint32_t count[3] = {image->width, image->height, image->depth};
+    plr_blocks *blocks = PLR_NEW(arena, plr_blocks);
+    for (int axis = 0; axis < 3; axis++) /* a side of one voxel has two cells, but one block */
+        blocks->size[axis] = (count[axis] + PLR_BLOCK_CELLS) / PLR_BLOCK_CELLS;
+    blocks->range = plr_arena_array(arena, plr_blocks_count(blocks), sizeof *blocks->range);
+    /* sides of blocks may be one more than voxels, where there is one voxel: room for both */
+    size_t room = plr_image_level_samples(image, 0);
+    float *values = malloc(room * sizeof *values);
+    if (!values)
+        longjmp(*arena->out_of_memory, 1);
+    for (int end = 0; end < 2; end++) {
+        fill_voxels(image, values);
+        reduce(image, blocks->size, end == 1, values);
+        size_t at = 0;
+        for (uint32_t z = 0; z < blocks->size[2]; z++)
+            for (uint32_t y = 0; y < blocks->size[1]; y++)
+                for (uint32_t x = 0; x < blocks->size[0]; x++)
+                    blocks->range[at++][end] =
+                        values[x + (size_t)count[0] * (y + (size_t)count[1] * z)];
+    }
+    free(values);
+    return blocks;
+}
+
+/* Takes one more than the least distance of those neighbours of block i that come before it in the
+ * order of memory (`way` -1) or after it (1). */
+static void relax(const plr_blocks *blocks, const uint32_t at[3], size_t i, int way,
+                  uint8_t *distances) {
+    const ptrdiff_t width = blocks->size[0], layer = width * (ptrdiff_t)blocks->size[1];
+    uint8_t least = distances[i];
+    for (int k = 0; k < 13; k++) {
+        /* the 13 neighbours before the middle one of 27 */
+        int d[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        bool outside = false;
+        for (int axis = 0; axis < 3; axis++) {
+            d[axis] *= -way; /* way -1: as they are */
+            int64_t place = (int64_t)at[axis] + d[axis];
+            outside = outside || place < 0 || place >= (int64_t)blocks->size[axis];
+        }
+        if (outside)
+            continue;
+        uint8_t distance = distances[(ptrdiff_t)i + d[0] + d[1] * width + d[2] * layer];
+        if (distance < least)
+            least = (uint8_t)(distance + 1) < least ? (uint8_t)(distance + 1) : least;
+    }
+    distances[i] = least;
+}
+
+void plr_blocks_distances(const plr_blocks *blocks, const bool *full, uint8_t *distances) {
+    size_t count = plr_blocks_count(blocks);
+    for (size_t i = 0; i < count; i++)
+        distances[i] = full[i] ? 0 : 255;
+    /* steps to all neighbours cost the same: two sweeps find Chebyshev's distance exactly
+     * (Rosenfeld, Pfaltz 1968) */
+    for (int way = -1; way <= 1; way += 2)
+        for (size_t n = 0; n < count; n++) {
+            size_t i = way < 0 ? n : count - 1 - n;
+            const uint32_t at[3] = {(uint32_t)(i % blocks->size[0]),
+                                    (uint32_t)(i / blocks->size[0] % blocks->size[1]),
+                                    (uint32_t)(i / blocks->size[0] / blocks->size[1])};
+            if (distances[i] > 1)
+                relax(blocks, at, i, way, distances);
+        }
+}

@@ -1,0 +1,25 @@
+/* Blocks of voxel cells: the least and the greatest value in each, and how far it is from there to
+ * the next block where anything can be seen. */
+#ifndef PLR_ENGINE_VOLUME_BLOCKS_H
+#define PLR_ENGINE_VOLUME_BLOCKS_H
+
+#include "base/arena.h"
+#include "engine/image.h"
+
+/* Cells a side of a block; the same in GLSL. Cell c lies between the centres of voxels c - 1 and c;
+ * the outermost ones reach from a centre to the side of the box. */
+#define PLR_BLOCK_CELLS 4
+
+typedef struct plr_blocks {
+    uint32_t size[3];  /* blocks along each axis */
+    float (*range)[2]; /* of the values in a block, sides included; x runs fastest */
+} plr_blocks;
+
+/* Of an image of one component. */
+plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image);
+/* How many blocks, in any direction, diagonals included, it is from each block to the next that is
+ * `full` (one flag a block): 0 of these themselves; at most 255. */
+void plr_blocks_distances(const plr_blocks *blocks, const bool *full, uint8_t *distances);
+size_t plr_blocks_count(const plr_blocks *blocks);
+
+#endif

@@ -1,0 +1,12 @@
+/* Which pixels rays through volumes start from. */
+#ifndef PLR_ENGINE_VOLUME_HULL_H
+#define PLR_ENGINE_VOLUME_HULL_H
+
+#include "engine/bind.h"
+
+/* The convex hull of the boxes in the picture, a pixel wider, in clip coordinates; of what reaches
+ * behind the eye, the whole picture. */
+void plr_volume_hull(const plr_volume_state *volumes, const size_t *members, size_t count,
+                     const plr_frame *frame, plr_hull *hull);
+
+#endif

@@ -1,0 +1,29 @@
+/* A transfer function as a table of integrals: what lies between two values, for all pairs of them.
+ * The optical depth of a part of a ray along which the value runs evenly from one to the other. */
+#ifndef PLR_ENGINE_VOLUME_TABLE_H
+#define PLR_ENGINE_VOLUME_TABLE_H
+
+#include "base/arena.h"
+#include "engine/texture.h"
+
+typedef struct plr_table {
+    uint32_t nodes;    /* values, evenly from 0 to 1, on which the texels of the function lie */
+    double *depth;     /* at each node: extinction integrated from 0 on, per reference length */
+    double (*color)[3]; /* the same times colour */
+    uint32_t *visible; /* of how many of the spans before a node anything can be seen */
+    bool opaque;       /* some texel is */
+    plr_texture *texture; /* x: the one value, y: the other; mean colour * extinction, extinction */
+} plr_table;
+
+/* Optical depths per reference length are not greater: nothing shines through. */
+#define PLR_MOST_DEPTH 1e4
+
+/* Of texels of RGBA, straight, interpolated linearly; at least two. */
+plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
+                          uint32_t count);
+/* The open interval outside of which nothing can be seen; its ends may be infinite. */
+void plr_table_seen(const plr_table *table, float seen[2]);
+/* Whether anything can be seen of values within a range. */
+bool plr_table_sees(const plr_table *table, double low, double high);
+
+#endif
