@@ -23,6 +23,26 @@ void plr_general_hide(plr_view *view, plr_recipe *recipe, bool hidden, size_t vo
                            attached, NULL, 0);
 }
 
+size_t plr_general_spares(plr_view *view, plr_slot_kind kind, size_t count) {
+    if (!view->general)
+        return 0;
+    size_t *most = &view->general_state.most[kind], slots = view->general_state.slots[kind];
+    *most = count > *most ? count : *most;
+    return slots > count ? slots - count : 0;
+}
+
+/* Room for one more of each kind; whether there was less. */
+static bool make_room(plr_view *view) {
+    bool grown = false;
+    for (size_t kind = 0; kind < PLR_SLOT_KINDS; kind++) {
+        size_t *slots = &view->general_state.slots[kind], most = view->general_state.most[kind];
+        grown = grown || *slots <= most;
+        *slots = *slots <= most ? most + 1 : *slots;
+        view->general_state.most[kind] = 0;
+    }
+    return grown;
+}
+
 /* ---- Worlds ---- */
 
 static bool is_interactive(const plr_view *view) {
@@ -103,7 +123,10 @@ static void warm(plr_view *view) {
 /* The general programs, before they are needed: asked for, and taken over once they are built. One
  * that does not compile leaves edits waiting for specialised ones. */
 static void prepare_general(plr_view *view) {
-    if (make(view, true, true, NULL))
+    bool whole = make(view, true, true, NULL);
+    if (make_room(view))
+        whole = make(view, true, true, NULL);
+    if (whole)
         warm(view);
     view->general_state.known = !view->composer.waiting;
     view->general_state.asked = true;

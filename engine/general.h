@@ -25,6 +25,9 @@ bool plr_general_has(const plr_view *view, bool off, const plr_node *node);
 /* In general worlds, the effect that hides a volume, or a shadow of it, while `hidden`. */
 void plr_general_hide(plr_view *view, plr_recipe *recipe, bool hidden, size_t volume,
                       size_t attached);
+/* How many effects of a kind a general recipe gets more than the `count` that the scene has: as
+ * many as an edit may add without leaving the class. None in a specialised one. */
+size_t plr_general_spares(plr_view *view, plr_slot_kind kind, size_t count);
 
 /* ---- In views ---- */
 

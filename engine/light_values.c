@@ -99,8 +99,9 @@ static const plr_light_value values[] = {
 
 static const plr_binding *find_light(const plr_recipe *recipe, unsigned number) {
     for (size_t i = 0; i < recipe->bindings.count; i++)
-        if (recipe->bindings.items[i].is_light && !recipe->bindings.items[i].closed &&
-            number-- == 0)
+        if (recipe->bindings.items[i].is_light && recipe->bindings.items[i].gated
+                ? recipe->bindings.items[i].number == (int)number
+                : recipe->bindings.items[i].is_light && number-- == 0)
             return &recipe->bindings.items[i];
     return NULL;
 }

@@ -19,7 +19,8 @@ static size_t add_placed(plr_shape *shape, const char *path, const plr_placed *p
                            .gated = shape->view->general,
                            .closed = placed->off};
     return plr_recipe_builtin(&shape->view->kitchen, shape->recipe, path,
-                              plr_node_type(placed->node), binding, 0, extra, extra_count);
+                              placed->node ? plr_node_type(placed->node) : "ClipPlane", binding, 0,
+                              extra, extra_count);
 }
 
 /* ---- Output ---- */
@@ -89,6 +90,10 @@ static void add_clip_planes(plr_shape *shape) {
                               "more than %d clip planes cut one shape; the outer ones are left out",
                               MOST_CLIP_PLANES);
         }
+    static const plr_placed spare = {.off = true};
+    for (size_t i = plr_general_spares(shape->view, PLR_SLOT_PLANE, count);
+         i > 0 && count < MOST_CLIP_PLANES; i--, count++)
+        add_placed(shape, "fog/ClipPlane", &spare, &on_surface, 1);
 }
 
 void plr_shape_surroundings(plr_shape *shape) {

@@ -4,29 +4,29 @@
 
 #include "engine/view.h"
 
-#define MAP(colors) "OpacityMapVolumeStyle { transferFunction PixelTexture { image " colors " } }"
+#define MAP                                                                                        \
+    "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 1 4 0xff802000 0x20ff60c0 } " \
+    "}"
 #define VOXELS                                                                                     \
-    "[ 1 4 4 4 0 40 90 20 60 120 130 70 80 200 180 30 0 20 10 0 "                                  \
+    "voxels PixelTexture3D { image [ 1 4 4 4 0 40 90 20 60 120 130 70 80 200 180 30 0 20 10 0 "    \
     "10 60 80 0 90 250 220 60 100 255 210 90 20 90 120 30 "                                        \
     "0 50 70 10 70 190 230 90 60 240 200 80 0 70 90 40 "                                           \
-    "0 10 20 0 30 80 60 10 40 70 110 20 0 30 20 0 ]"
+    "0 10 20 0 30 80 60 10 40 70 110 20 0 30 20 0 ] } "
 /* In quarters: 0, 1, 2, 3. */
 #define LABELS                                                                                     \
-    "[ 1 4 4 4 0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 "                   \
-    "0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 ]"
+    "segmentIdentifiers PixelTexture3D { image [ 1 4 4 4 "                                         \
+    "0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 "                             \
+    "0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 0 0 1 1 0 0 1 1 2 2 3 3 2 2 3 3 ] } "
 #define HEAD                                                                                       \
     "#X3D V4.0 utf8\nPROFILE Immersive\nDEF N NavigationInfo { headlight FALSE }\n"                \
     "OrthoViewpoint { fieldOfView -1 -1 1 1 }\n"
-#define VOLUME(style)                                                                              \
-    "DEF V VolumeData { dimensions 1.6 1.6 1.6 voxels PixelTexture3D { image " VOXELS              \
-    " } renderStyle " style " }\n"
 
 typedef struct edit {
     const char *name, *def, *field, *value;
 } edit;
 
 enum {
-    MOST_EDITS = 12,
+    MOST_EDITS = 14,
     SIDE = 24
 };
 
@@ -35,15 +35,50 @@ typedef struct example {
     edit edits[MOST_EDITS];
 } example;
 
+static const char lights_text[] =
+    HEAD "DEF G Switch { children PointLight { location -1 -1 2 color 0.2 0.2 1 } }\n"
+         "DEF D DirectionalLight { direction 1 -0.4 -1 intensity 0.8 ambientIntensity 0.1 }\n"
+         "DEF P PointLight { on FALSE location 1 1 2 color 0.3 0.9 0.5 ambientIntensity 0.3 }\n"
+         "DEF S SpotLight { location 0 0 3 direction 0 0 -1 on FALSE color 1 0.5 0.2 }\n"
+         "VolumeData { dimensions 1.6 1.6 1.6 " VOXELS
+         "renderStyle DEF C ComposedVolumeStyle { renderStyle [ DEF M " MAP
+         "DEF E EdgeEnhancementVolumeStyle { enabled FALSE edgeColor 1 0 0 1 }\n"
+         "DEF SH ShadedVolumeStyle { lighting TRUE } ] } }\n";
+
+static const char planes_text[] = HEAD
+    "DEF A ClipPlane { plane 1 0 0 0.1 enabled FALSE }\n"
+    "DEF O Switch { whichChoice 0 children [\n"
+    "Group { children DEF V VolumeData { dimensions 1.6 1.6 1.6 " VOXELS "renderStyle " MAP "} }\n"
+    "Group { children [ ClipPlane { plane 0 0 -1 0.1 } USE V ] } ] }\n"
+    "Transform { translation 0.3 0.2 0.1 children VolumeData { dimensions 0.8 0.8 0.8 " VOXELS
+    "clipPlanes DEF B ClipPlane { plane 0 1 0 0.2 }\n"
+    "renderStyle DEF M OpacityMapVolumeStyle {\n"
+    "transferFunction PixelTexture { image 2 1 4 0x00ff0000 0x2020ffff } } } }\n"
+    "Shape { appearance Appearance { material Material { } } geometry Box { size .5 .5 .5 } }\n";
+
+static const char segments_text[] =
+    HEAD "DirectionalLight { direction 0.5 0 -1 }\n"
+         "DEF V SegmentedVolumeData { dimensions 1.6 1.6 1.6 " VOXELS LABELS
+         "segmentEnabled [ TRUE TRUE FALSE ]\n"
+         "renderStyle [ CartoonVolumeStyle { } DEF SH ShadedVolumeStyle { lighting TRUE } ] }\n";
+
+static const char surfaces_text[] =
+    HEAD "DirectionalLight { direction 0.5 0 -1 }\n"
+         "DEF V IsoSurfaceVolumeData { dimensions 1.6 1.6 1.6 " VOXELS "surfaceValues [ 0.3 0.6 ]\n"
+         "renderStyle [ DEF C CartoonVolumeStyle {\n"
+         "orthogonalColor 1 0 0 0.5 parallelColor 0 1 0 0.5 }\n"
+         "DEF SH ShadedVolumeStyle { lighting TRUE enabled FALSE } ] }\n";
+
+static const char shadows_text[] = HEAD
+    "DirectionalLight { direction 1 0 -1 }\n"
+    "VolumeData { dimensions 1.6 1.6 1.6 " VOXELS "renderStyle ComposedVolumeStyle {\n"
+    "renderStyle [ " MAP "DEF SH ShadedVolumeStyle { lighting TRUE shadows TRUE }\n"
+    "DEF B BlendedVolumeStyle { enabled FALSE " VOXELS
+    "renderStyle DEF I SilhouetteEnhancementVolumeStyle { silhouetteBoundaryOpacity 1 } } ] } }\n";
+
 static const example examples[] = {
     {"lights",
-     HEAD "DEF D DirectionalLight { direction 1 -0.4 -1 intensity 0.8 ambientIntensity 0.1 }\n"
-          "DEF P PointLight { on FALSE location 1 1 2 color 0.3 0.9 0.5 ambientIntensity 0.3 }\n"
-          "DEF S SpotLight { location 0 0 3 direction 0 0 -1 on FALSE color 1 0.5 0.2 }\n" VOLUME(
-              "DEF C ComposedVolumeStyle { renderStyle [ DEF M " MAP(
-                  "2 1 4 0xff802000 0x20ff60c0") " DEF E EdgeEnhancementVolumeStyle { enabled "
-                                                 "FALSE edgeColor 1 0 0 1 } DEF SH "
-                                                 "ShadedVolumeStyle { lighting TRUE } ] }"),
+     lights_text,
      {{"a light is switched on", "P", "on", "TRUE"},
       {"another one, too", "S", "on", "TRUE"},
       {"the first is switched off", "D", "on", "FALSE"},
@@ -54,64 +89,32 @@ static const example examples[] = {
       {"the headlight", "N", "headlight", "TRUE"},
       {"shading off", "SH", "enabled", "FALSE"},
       {"shading on", "SH", "enabled", "TRUE"},
+      {"a light that was not there", "G", "whichChoice", "0"},
       {"all styles off: nothing is drawn", "C", "enabled", "FALSE"},
       {"and on", "C", "enabled", "TRUE"}}},
     {"planes",
-     HEAD "DEF A ClipPlane { plane 1 0 0 0.1 enabled FALSE }\n"
-          "DEF V VolumeData { dimensions 1.6 1.6 1.6 clipPlanes DEF B ClipPlane { plane 0 1 0 0.2 "
-          "} voxels PixelTexture3D { image " VOXELS " } renderStyle " MAP(
-              "2 1 4 0xff802000 0x20ff60c0") " }\n"
-                                             "Transform { translation 0.3 0.2 0.1 children DEF W "
-                                             "VolumeData { dimensions 0.8 0.8 0.8 voxels "
-                                             "PixelTexture3D { image " VOXELS
-                                             " } renderStyle DEF M " MAP(
-                                                 "2 1 4 0x00ff0000 0x2020ffff") " } }\n"
-                                                                                "Shape { "
-                                                                                "appearance "
-                                                                                "Appearance { "
-                                                                                "material "
-                                                                                "Material { } } "
-                                                                                "geometry Box { "
-                                                                                "size 0.5 0.5 0.5 "
-                                                                                "} }\n",
+     planes_text,
      {{"a plane is switched on", "A", "enabled", "TRUE"},
       {"the volume's own one is switched off", "B", "enabled", "FALSE"},
+      {"a plane that was not there", "O", "whichChoice", "1"},
       {"a plane moves", "A", "plane", "1 0 0 -0.1"},
       {"the one volume is hidden", "M", "enabled", "FALSE"},
       {"the headlight on volumes and shapes", "N", "headlight", "TRUE"},
       {"the volume is there again", "M", "enabled", "TRUE"}}},
     {"segments",
-     HEAD "DEF D DirectionalLight { direction 0.5 0 -1 }\n"
-          "DEF V SegmentedVolumeData { dimensions 1.6 1.6 1.6 voxels PixelTexture3D { image " VOXELS
-          " } segmentIdentifiers PixelTexture3D { image " LABELS " } "
-          "segmentEnabled [ TRUE TRUE FALSE ] renderStyle [ DEF C CartoonVolumeStyle { } DEF "
-          "SH ShadedVolumeStyle { lighting TRUE } ] }\n",
+     segments_text,
      {{"a segment is switched on", "V", "segmentEnabled", "TRUE TRUE TRUE"},
       {"another one off", "V", "segmentEnabled", "FALSE TRUE TRUE"},
       {"the style of a segment off", "SH", "enabled", "FALSE"},
       {"more switches than before", "V", "segmentEnabled", "TRUE TRUE TRUE FALSE"},
       {"and on", "SH", "enabled", "TRUE"}}},
     {"surfaces",
-     HEAD "DEF D DirectionalLight { direction 0.5 0 -1 }\n"
-          "DEF V IsoSurfaceVolumeData { dimensions 1.6 1.6 1.6 voxels PixelTexture3D { image "
-          "" VOXELS " } surfaceValues [ 0.3 0.6 ] renderStyle [ DEF C CartoonVolumeStyle { "
-          "orthogonalColor 1 0 0 0.5 parallelColor 0 1 0 0.5 } DEF SH ShadedVolumeStyle { lighting "
-          "TRUE enabled "
-          "FALSE } ] }\n",
+     surfaces_text,
      {{"the style of a surface on", "SH", "enabled", "TRUE"},
       {"values of surfaces", "V", "surfaceValues", "0.2 0.7"},
       {"the other style off", "C", "enabled", "FALSE"}}},
     {"shadows and blending",
-     HEAD "DEF D DirectionalLight { direction 1 0 -1 }\n" VOLUME(
-         "ComposedVolumeStyle { renderStyle [ " MAP(
-             "2 1 4 0xff802000 0x20ff60c0") " DEF SH "
-                                            "ShadedVolumeStyle { lighting TRUE shadows TRUE } DEF "
-                                            "B "
-                                            "BlendedVolumeStyle { enabled FALSE voxels "
-                                            "PixelTexture3D { image " VOXELS
-                                            " } renderStyle DEF I SilhouetteEnhancementVolumeStyle "
-                                            "{ "
-                                            "silhouetteBoundaryOpacity 1 } } ] }"),
+     shadows_text,
      {{"blending on", "B", "enabled", "TRUE"},
       {"the style inside off", "I", "enabled", "FALSE"},
       {"shadows off with their style", "SH", "enabled", "FALSE"},
