@@ -282,31 +282,30 @@ def show(values):
     return " ".join(f"{v:.3g}" for v in values)
 
 
-def check_order(suite, name, errors, counts, order, least=5):
+def check_order(suite, method, errors, counts, order, least=5, row=None):
     orders = observed_orders(errors, counts)
-    if len(orders) < least:
-        return suite.check(f"{name}: {least} halvings above the floor", False, show(errors), show(orders))
-    found = median(orders)
-    return suite.check(f"{name}: order {order} (observed {found:.2f})",
-                       abs(found - order) <= 0.1 and not grows(errors, counts),
-                       f"errors {show(errors)}", f"orders {show(orders)}")
+    found = median(orders) if len(orders) >= least else math.nan
+    return suite.result(row, method, f"order {order}", f"{found:.2f}",
+                        abs(found - order) <= 0.1 and not grows(errors, counts), f"errors {show(errors)}",
+                        f"orders {show(orders)}, of {least} above the floor")
 
 
-def check_exact(suite, name, errors, counts, tolerance):
+def check_exact(suite, method, errors, counts, tolerance, row=None):
     allowed = [max(tolerance, floor_of(n)) for n in counts]
-    return suite.check(f"{name}: exact for any step (worst {max(errors):.1e})",
-                       all(e <= a for e, a in zip(errors, allowed)), f"errors {show(errors)}",
-                       f"allowed {show(allowed)}")
+    return suite.result(row, method, "exact", f"{max(errors):.1e}",
+                        all(e <= a for e, a in zip(errors, allowed)), f"errors {show(errors)}",
+                        f"allowed {show(allowed)}")
 
 
-def check_bounded(suite, name, errors, lengths, counts, constant, power):
+def check_bounded(suite, method, errors, lengths, counts, constant, power, row=None):
     """e <= constant * h^power; a kink or a jump makes single ratios of errors vary, not their trend."""
     allowed = [max(constant * h**power, floor_of(n)) for h, n in zip(lengths, counts)]
     whole = slope_of([-math.log2(max(e, 1e-9)) for e in errors])
     used = max(e / h**power for e, h in zip(errors, lengths))
-    return suite.check(f"{name}: within {constant:.3g} h^{power} (at most {used:.3g}), order {whole:.2f} in all",
-                       all(e <= a for e, a in zip(errors, allowed)) and whole >= 0.8 * power,
-                       f"errors {show(errors)}", f"allowed {show(allowed)}")
+    unit = "h" if power == 1 else f"h^{power}"
+    return suite.result(row, method, f"at most {constant:.3g} {unit}", f"{used:.2g} {unit}, order {whole:.2f}",
+                        all(e <= a for e, a in zip(errors, allowed)) and whole >= 0.8 * power,
+                        f"errors {show(errors)}", f"allowed {show(allowed)}")
 
 
 def is_physical(picture):

@@ -9,11 +9,12 @@ from analytic_data import (BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT, OBLIQUE, 
                            check_backends, check_denser, check_order, grey, image3d, mapped_case,
                            offered)
 from analytic_grid import Grid
+from analytic_page import Analytic
 from analytic_rays import Box, Parallel, Transform, centres, words
-from harness import Suite, dot, unit
+from harness import dot, unit
 from scenes import effect
 
-suite = Suite()
+suite = Analytic()
 
 DIMENSIONS = (0.64, 0.5, 0.56)
 COARSE = [2 * s for s in HALVINGS]
@@ -231,8 +232,8 @@ def finer_pixels():
             pairs = [(found[-1].at(i, j)[3], (i + 0.5) / fine, (j + 0.5) / fine) for i, j in places]
             bilinear.append(max(abs(a - between(picture, size, x, y)) for a, x, y in pairs))
             nearest.append(max(abs(a - picture.at(int(x * size), int(y * size))[3]) for a, x, y in pairs))
-        check_order(suite, f"{method}, bilinear", bilinear, [1] * len(sizes), 2, least=4)
-        check_order(suite, f"{method}, nearest", nearest, [1] * len(sizes), 1, least=4)
+        check_order(suite, method, bilinear, [1] * len(sizes), 2, 4, "V7 refinement of pixels, bilinear")
+        check_order(suite, method, nearest, [1] * len(sizes), 1, 4, "V7 refinement of pixels, nearest")
 
 
 @suite.case
@@ -242,4 +243,4 @@ def backends():
         check_backends(one, 1 / 4)
 
 
-suite.run()
+suite.main(__name__)

@@ -4,13 +4,13 @@
 import math
 
 import analytic_truth as truth
-from analytic_data import (BOUNDED, CELLS, EXACT, HALVINGS, MIDPOINT, TABLE, Sheet, add_cases, check_backends,
-                           check_denser, image3d, is_physical, mapped_case, oblique_box, offered, on_ramp,
-                           ramp_case, sampled)
+from analytic_data import (BOUNDED, CELLS, EXACT, HALVINGS, MIDPOINT, TABLE, Sheet, add_cases,
+                           check_backends, check_denser, check_exact, greatest_error, image3d, is_physical,
+                           mapped_case, oblique_box, offered, on_ramp, ramp_case, sampled)
+from analytic_page import Analytic
 from analytic_rays import Box, Parallel
-from harness import Suite
 
-suite = Suite()
+suite = Analytic()
 
 EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: 2}
 ALWAYS = dict.fromkeys(EVERY, EXACT)
@@ -119,33 +119,33 @@ def closed_forms():
 add_cases(sheet, CASES)
 
 
+few = Sheet(suite, CASES[:len(EXTINCTIONS)], VIEW)
+BACKGROUND = (0.2, 0.6, 0.4)
+behind = Sheet(suite, few.cases, VIEW, head=f"Background {{ skyColor {' '.join(map(str, BACKGROUND))} }}\n")
+
+
 @suite.case
 def V1_any_step():
-    "V1: one step, or a thousand"
-    few = Sheet(suite, CASES[:len(EXTINCTIONS)], VIEW)
+    "V1 one step, or a thousand"
     for method in offered(suite):
-        for step in (50, 1 / 320):
-            for case in few.cases:
-                count = few.counts(case, [step])[0]
-                suite.check(f"{case.name}, {method}, {max(count, 1):.0f} steps",
-                            few.error(case, method, step) <= max(2e-6, count * 6e-8),
-                            few.error(case, method, step))
+        errors, counts = [], []
+        for case in few.cases:
+            for step in (50, 1 / 320):
+                counts.append(few.counts(case, [step])[0])
+                errors.append(few.error(case, method, step))
+        check_exact(suite, method, errors, counts, 0)
 
 
 @suite.case
 def V2():
     "V2 a background behind constant volumes"
-    background = (0.2, 0.6, 0.4)
-    behind = Sheet(suite, CASES[:len(EXTINCTIONS)], VIEW,
-                   head=f"Background {{ skyColor {' '.join(map(str, background))} }}\n")
     for method in offered(suite):
+        worst = 0.0
         for case in behind.cases:
-            worst = 0.0
-            for i, color in enumerate(behind.expected(case)[0]):
-                seen = [c + (1 - color[3]) * b for c, b in zip(color[:3], background)] + [1.0]
-                got = behind.picture(case, method, 1).values[4 * i:4 * i + 4]
-                worst = max([worst] + [abs(a - b) for a, b in zip(got, seen)])
-            suite.check(f"{case.name}, {method} (worst {worst:.1e})", worst <= 2e-6)
+            colors = [[c + (1 - color[3]) * b for c, b in zip(color[:3], BACKGROUND)] + [1.0]
+                      for color in behind.expected(case)[0]]
+            worst = max(worst, greatest_error(behind.picture(case, method, 1), colors))
+        check_exact(suite, method, [worst], [1], 0)
 
 
 @suite.case
@@ -174,4 +174,4 @@ def backends():
     check_backends(sheet, 1 / 4)
 
 
-suite.run()
+suite.main(__name__)

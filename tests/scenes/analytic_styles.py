@@ -11,13 +11,14 @@ import analytic_truth as truth
 from analytic_data import (EXACT, HALVINGS, OBLIQUE, RAMP_GRADIENT, REFERENCE, Sheet, add_cases, check_backends,
                            image3d, mapped_case, on_ramp, ramp_value)
 from analytic_grid import Grid
+from analytic_page import Analytic
 from analytic_rays import Box, Parallel, centres
-from harness import Suite, blinn_phong, dot, unit
+from harness import blinn_phong, dot, unit
 from scenes import constant
 from style_data import VIEW as TO_VIEWER
 from style_data import boundary, cartoon, edge, silhouette, tone
 
-suite = Suite()
+suite = Analytic()
 
 DIMENSIONS = (0.64, 0.5, 0.56)
 METHODS = ("midpoint", "preintegrated", "cells")
@@ -181,4 +182,4 @@ def backends():
         check_backends(one, 1.3 if one is flat_sheet else 1 / 4)
 
 
-suite.run()
+suite.main(__name__)

@@ -5,14 +5,15 @@ import math
 import random
 
 from analytic_data import (EXACT, HALVINGS, KINKED, MIDPOINT, OBLIQUE, RAMP_GRADIENT, Case, Sheet,
-                           add_cases, check_backends, check_order, image3d, oblique_box, on_ramp,
+                           add_cases, check_backends, check_exact, check_order, image3d, oblique_box, on_ramp,
                            ramp_value)
 from analytic_grid import Grid
+from analytic_page import Analytic
 from analytic_rays import Box, Parallel, Transform, centres, words
-from harness import CaseError, Suite, dot, unit
+from harness import CaseError, dot, unit
 from scenes import effect, volume
 
-suite = Suite()
+suite = Analytic()
 
 DIMENSIONS = (0.64, 0.5, 0.56)
 VIEW = Parallel(0.5)
@@ -72,8 +73,9 @@ def V14():
         for case in cases:
             error = sheet.error(case, MIDPOINT, step)
             met = sheet.expected(case)[1]
-            suite.check(f"{case.name}, {step / 2} voxels behind the entry ({met} rays, worst {error / SCALE:.1e})",
-                        error <= 2e-6 and met >= 64)
+            suite.check(f"{met} rays", met >= 64)
+            check_exact(suite, MIDPOINT, [error / SCALE], [1], 5e-6,
+                        f"V14 gradients, {case.name}, {step / 2} voxels behind the entry")
 
 
 # ---- V15: surfaces. An effect shows how far it is, and the normal.
@@ -175,12 +177,11 @@ add_cases(planes, planes.cases)
 def V15_spheres():
     "V15 sphere"
     case = sphere_case(6, COMPUTED + DEPTH, lambda place: 0.0)
-    for step in (0.05, 0.3, 0.7):
-        way, _ = sphere_errors(case, step)
-        suite.check(f"computed, steps of {step} voxels (worst {way:.1e})", way <= 2e-6)
+    check_exact(suite, MIDPOINT, [sphere_errors(case, step)[0] for step in (0.05, 0.3, 0.7)], [1] * 3, 0,
+                "V15 sphere, computed")
     found = [sphere_errors(sphere_case(n), 0.5) for n in (6, 12, 24, 48, 96)]
     for name, errors in zip(("distances", "normals"), zip(*found)):
-        check_order(suite, f"finer grids, {name}", errors, [1] * len(errors), 2, least=4)
+        check_order(suite, MIDPOINT, errors, [1] * len(errors), 2, 4, f"V15 sphere, finer grids, {name}")
 
 
 # ---- V13, V16: projections
@@ -262,4 +263,4 @@ def backends():
         check_backends(one, 0.5)
 
 
-suite.run()
+suite.main(__name__)

@@ -11,14 +11,15 @@ from analytic_data import (EXACT, HALVINGS, OBLIQUE, Case, Sheet, add_cases, che
                            check_bounded, function_file, greatest_error, image3d, mapped_case, offered,
                            on_ramp, opacity_map, ramp_value, sampled, table)
 from analytic_grid import Grid
+from analytic_page import Analytic
 from analytic_rays import Box, Parallel, Perspective, Transform, centres
-from harness import Suite, over
+from harness import over
 from scenes import constant, quad, volume
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "reference"))
 import reference as raycaster
 
-suite = Suite()
+suite = Analytic()
 raycaster.beside(sys.argv[1])
 
 DIMENSIONS = (0.64, 0.5, 0.56)
@@ -156,7 +157,7 @@ def V18():
             seen = [v for i, v in enumerate(picture.values) if i % 4 < 3]
             worst = max(abs(v - (1 - opacity)) for v in seen)
             allowed = LEFT if 1 - opacity < LEFT else 2e-6
-            suite.check(f"{method}, {case.name} (worst {worst:.1e})", worst <= allowed)
+            suite.result(case.name, method, f"at most {allowed:.1e}", f"{worst:.1e}", worst <= allowed)
 
 
 # ---- V19: boxes anywhere, the eye and surfaces inside
@@ -269,7 +270,7 @@ def random_case(seed):
     content = box.place.around(volume(
         image3d(name), opacity_map(f"function-{seed}.nrrd") if texels else "", "",
         "valueRange 0 1 opacityUnitDistance .2", dimensions))
-    case = Case(f"V12 random volume {seed}" if seed < 4 else f"random volume {seed}", content, None, box, files)
+    case = Case(f"V12 random volume {seed}, against the reference", content, None, box, files)
     case.job = raycaster.volume(size, list(data.values), "f32", dimensions=dimensions, value_range=(0, 1),
                                 matrix=raycaster.transform(rotation=turn), opacity_unit=0.2,
                                 transfer=raycaster.texels(texels) if texels else None)
@@ -288,7 +289,7 @@ def V12():
         for method in offered(suite):
             errors = [greatest_error(sheet.picture(case, method, step), colors) for step in HALVINGS]
             # in voxels: the square of a step, less at the kinks between them
-            check_bounded(suite, f"{case.name}, {method}", errors, HALVINGS, [5 / s for s in HALVINGS], 1.0, 2)
+            check_bounded(suite, method, errors, HALVINGS, [5 / s for s in HALVINGS], 1.0, 2, case.name)
 
 
 @suite.case
@@ -298,4 +299,4 @@ def backends():
         check_backends(one, 0.3)
 
 
-suite.run()
+suite.main(__name__)
