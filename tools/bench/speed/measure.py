@@ -3,6 +3,7 @@
 import math
 import operator
 import os
+import time
 
 from . import data, engines, scenes
 
@@ -54,6 +55,11 @@ class Setting:
         self.title = title
         self.scene = scenes.scene(volume, perspective, shaded)
 
+
+    @property
+    def weight(self):
+        """About what it costs to measure, against others."""
+        return self.size ** 2 / 512 ** 2 * self.volume.side / 64 * (2.5 if self.shaded else 1)
 
     @property
     def primary(self):
@@ -154,11 +160,15 @@ class Point:
         return 2 * standard_error(self.times)
 
 
-def measure(points, rounds, progress):
+def measure(points, rounds, progress, seconds_left=lambda: math.inf):
     """Draws all points in turns, so that a busy minute hits all of them. Those that fail are dropped; slow ones
-    are drawn in two rounds."""
+    are drawn in two rounds. A round for which there is no time is left out, but the first."""
     failed = []
+    took = 0
     for number in range(rounds):
+        if number and took > seconds_left():
+            break
+        start = time.monotonic()
         for point in points:
             if point in failed or (number > 1 and point.time > SLOW):
                 continue
@@ -168,6 +178,7 @@ def measure(points, rounds, progress):
                 failed.append(point)
                 progress.note(f"{point.setting.name}, {point.method.name} {point.knob:g}: {why}")
             progress.step()
+        took = time.monotonic() - start
     return [p for p in points if p not in failed]
 
 
