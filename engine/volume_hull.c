@@ -82,8 +82,9 @@ void plr_volume_hull(const plr_volume_state *volumes, const size_t *members, siz
             return;
         }
         qsort(points, size, sizeof *points, by_place);
-        size_t found = add_side(points, size, false, chain, 0);
-        found = add_side(points, size, true, chain, found);
+        const point *sorted = (const point *)points;
+        size_t found = add_side(sorted, size, false, chain, 0);
+        found = add_side(sorted, size, true, chain, found);
         if (found > PLR_MOST_HULL) {
             cover_all(hull);
             return;
