@@ -18,17 +18,15 @@ plugray.write("base.frag", "#version 330 core\nout vec4 c;\nvoid main() { c = ve
 
 version = plugray.expect(0, "--version")
 check(version.stdout.startswith("plugray ") and version.stdout.count("\n") == 1, "the version is a line")
-for command in ("render", "link", "dump", "check", "plugs", "info"):
+for command in ("render", "link", "dump", "check", "plugs", "info", "chart"):
     text = plugray.expect(0, command, "--help")
     check(text.stdout.startswith(f"Usage: plugray {command}") and not text.stderr,
           f"{command} --help says how it is used")
     check(f"  {command} " in plugray.run("--help").stdout, f"--help names {command}")
-    check("--error" not in text.stdout, f"{command} --help names nothing that is not there")
 
 WRONG = [
     ([], "which command?"),
     (["paint"], "there is no command paint"),
-    (["chart", "box.x3dv", "-o", "chart.png"], "chart is not in this version"),
     (["studio", "box.x3dv"], "studio is not in this version"),
     (["render"], "SCENE is missing"),
     (["render", "box.x3dv"], "at least one of -o, --probe, --pick, --stats is needed"),
@@ -45,6 +43,11 @@ WRONG = [
     (["render", "box.x3dv", "-o", "a.png", "--step", "0"], "--step takes a number above 0"),
     (["render", "box.x3dv", "-o", "a.png", "--step", "nan"], "--step takes a number above 0"),
     (["render", "box.x3dv", "-o", "a.png", "--step", "1x"], "--step takes a number above 0"),
+    (["render", "box.x3dv", "-o", "a.png", "--error", "0"], "--error takes a number above 0 and at most 1"),
+    (["render", "box.x3dv", "-o", "a.png", "--error", "1/0"], "or a fraction, not '1/0'"),
+    (["render", "box.x3dv", "-o", "a.png", "--error", "1/255", "--step", "1"], "exclude each other"),
+    (["render", "box.x3dv", "-o", "a.png", "--method", "magic"],
+     "--method takes auto|midpoint|preintegrated|cells"),
     (["render", "box.x3dv", "-o", "a.png", "--samples", "0"], "--samples takes a whole number"),
     (["render", "box.x3dv", "-o", "a.png", "--repeat", "1.5"], "--repeat takes a whole number"),
     (["render", "box.x3dv", "--stats=xml"], "--stats takes json or nothing"),
@@ -72,8 +75,6 @@ WRONG = [
 for arguments, message in WRONG:
     run = plugray.expect(2, *arguments, stderr=message)
     check(not run.stdout, "nothing on standard output")
-plugray.expect(2, "render", "box.x3dv", "-o", "a.png", "--error", "1",
-               stderr="--error is not in this version")
 check_equal(sorted(path.name for path in plugray.folder.iterdir()), ["base.frag", "box.x3dv"],
             "wrong usage writes no file")
 

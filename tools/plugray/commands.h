@@ -10,5 +10,6 @@ int command_dump(const tool_arguments *arguments);
 int command_check(const tool_arguments *arguments);
 int command_plugs(const tool_arguments *arguments);
 int command_info(const tool_arguments *arguments);
+int command_chart(const tool_arguments *arguments);
 
 #endif

@@ -8,6 +8,7 @@ static int (*const runners[COMMAND_COUNT])(const tool_arguments *) = {
     [COMMAND_RENDER] = command_render, [COMMAND_LINK] = command_link,
     [COMMAND_DUMP] = command_dump,     [COMMAND_CHECK] = command_check,
     [COMMAND_PLUGS] = command_plugs,   [COMMAND_INFO] = command_info,
+    [COMMAND_CHART] = command_chart,
 };
 
 int main(int argc, char **argv) {

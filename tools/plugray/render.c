@@ -89,28 +89,6 @@ static bool read_outputs(render_job *job) {
     return true;
 }
 
-/* An error as a number or as a fraction, "1/255". */
-static bool read_error(render_job *job) {
-    const char *text = option_value(job->arguments, OPTION_ERROR_BOUND);
-    if (!text)
-        return true;
-    char *after;
-    double over = 1, error = strtod(text, &after);
-    if (after > text && *after == '/' && after[1]) {
-        const char *under = after + 1;
-        over = strtod(under, &after);
-        after = after > under ? after : (char *)text;
-    }
-    error /= over;
-    if (after > text && !*after && error > 0 && error <= 1) {
-        job->error = error;
-        return true;
-    }
-    usage_error(job->arguments,
-                "--error takes a number above 0 and at most 1, or a fraction, not '%s'", text);
-    return false;
-}
-
 static bool read_sampling(render_job *job) {
     const tool_arguments *a = job->arguments;
     const char *text = option_value(a, OPTION_METHOD);
@@ -120,7 +98,8 @@ static bool read_sampling(render_job *job) {
         return false;
     }
     job->method = (plr_method)index;
-    if (!read_error(job) || !option_number(a, OPTION_STEP, 0, 1e6, &job->step))
+    if (!option_fraction(a, OPTION_ERROR_BOUND, 0, 1, &job->error) ||
+        !option_number(a, OPTION_STEP, 0, 1e6, &job->step))
         return false;
     if (job->error > 0 && job->step > 0) {
         usage_error(a, "--error and --step exclude each other");
