@@ -10,6 +10,8 @@
 static const double SAME_PLACE = 1e-13; /* entries and exits that differ by rounding alone */
 static const double SEEN_THROUGH = 37;  /* the optical depth behind which nothing is seen */
 
+static const double LIT = 1e-8; /* what cuts of lit colours may have missed */
+
 typedef struct ray {
     double origin[3], way[3]; /* in the world, `way` of length 1 */
     double start, limit;
@@ -130,8 +132,11 @@ ref_color ref_cast(const ref_scene *scene, ref_pixel pixel) {
         put_behind(&sum, scene->background, scene->background[3]);
         memcpy(result.rgba, sum.color, sizeof sum.color);
         result.rgba[3] = -expm1(-sum.depth);
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < count; i++) {
             sum.is_uncertain |= walks[i].is_uncertain;
+            if (walks[i].volume->shading.used)
+                sum.error += LIT;
+        }
         result.error = sum.is_out_of_memory ? INFINITY : sum.error;
         if (sum.is_uncertain || uncertain)
             result.error = fmax(result.error, 1);

@@ -6,7 +6,8 @@
 
 enum {
     LEVELS = 5,
-    MOST_HALVINGS = 48
+    MOST_HALVINGS = 48,
+    HALVED = 10
 };
 
 /* Extinction, and colour times extinction, of all volumes at t. */
@@ -92,7 +93,8 @@ static void integrate(ref_sum *sum, double from, double to, int halvings) {
     if (level == LEVELS)
         level--;
     if (found || !(middle > from && middle < to)) {
-        gather(sum, rows[level % 2][level], level ? error : 0);
+        /* next to a singularity estimates agree sooner than they should */
+        gather(sum, rows[level % 2][level], level ? error * (halvings ? HALVED : 1) : 0);
         return;
     }
     integrate(sum, from, middle, halvings + 1);
