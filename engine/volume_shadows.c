@@ -124,7 +124,8 @@ static bool has_receiver(const plr_recipe *recipe) {
 
 static const char *const ray_units[] = {
     [PLR_VOLUME_FILLED] = "volume/ShadowRay volume/grid volume/shadow_steps",
-    [PLR_VOLUME_SURFACES] = "volume/ShadowRay volume/grid volume/levels volume/shadow_surfaces"};
+    [PLR_VOLUME_SURFACES] =
+        "volume/ShadowRay volume/grid volume/levels volume/crossings volume/shadow_surfaces"};
 
 static size_t add_ray(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                       size_t shadow) {

@@ -266,7 +266,8 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
 #define PROJECTED "volume/Volume volume/grid volume/projection"
 /* And along the way of light. */
 #define SHADOW_STEPS "volume/ShadowRay volume/grid volume/shadow_steps"
-#define SHADOW_SURFACES "volume/ShadowRay volume/grid volume/levels volume/shadow_surfaces"
+#define SHADOW_SURFACES                                                                            \
+    "volume/ShadowRay volume/grid volume/levels volume/crossings volume/shadow_surfaces"
 static const plr_define in_shadow[] = {{"IN_SHADOW", "1"}};
 static const plr_define plane_of_volume[] = {{"VOLUME", "1"}};
 static const plr_define all_shadows[] = {{"SKIPS_CLEAR", "0"}};

@@ -70,7 +70,7 @@ def mean_of_squares(n):
            shows="the mean of squares along ramps of N voxels; a bright voxel amid 5 x 5 x 5; voxels and their mirror image",
            invariant="the mean is (2N + 1) / (6N), the spot is in the middle, the pictures are mirrored")
 def half_voxel(row):
-    p = row.picture("--step", "0.01", size="4x1")
+    p = row.picture("--step", "0.005", size="4x1")
     for i, n in enumerate(RAMPS):
         row.measure("means differ by", abs(p.at(i, 0)[0] - (2 * n + 1) / (6 * n)), at_most=1e-5, case=f"N = {n}")
     bright = voxels(1, (5, 5, 5), (255 if i == 62 else 0 for i in range(125)))
