@@ -97,6 +97,7 @@ typedef struct plr_values {
     const plr_frame *frame;
     struct plr_view *view; /* that the frame shows; for projectors */
     plr_matrix to_world;   /* of what is drawn */
+    double ray_plane;      /* how far before the eye rays through volumes begin; a float */
     const plr_volume_state *volumes;
     size_t volume_count;
     plr_texture *functions; /* the transfer functions of the volumes, in one texture */

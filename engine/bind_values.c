@@ -112,6 +112,17 @@ static void v_eye_to_local(const plr_known_context *c, float *out) {
     plr_matrix m = plr_matrix_multiply(&c->values->frame->view, &c->volume->to_world);
     put_inverse(&m, out);
 }
+static void v_local_start(const plr_known_context *c, float *out) {
+    plr_matrix m = plr_matrix_multiply(&c->values->frame->view, &c->volume->to_world), to_local;
+    plr_matrix_invert(&m, &to_local);
+    double place[3] = {0, 0, -c->values->ray_plane};
+    plr_matrix_point(&to_local, place, place);
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)place[i];
+}
+static void v_ray_plane(const plr_known_context *c, float *out) {
+    out[0] = (float)c->values->ray_plane;
+}
 static void v_dimensions(const plr_known_context *c, float *out) {
     for (int i = 0; i < 3; i++)
         out[i] = (float)c->volume->dimensions[i];
@@ -246,6 +257,7 @@ static const plr_known known[] = {
     {"plugray_Time", OWNER_HOST, v_time},
     {"viewport", OWNER_HOST, v_viewport},
     {"viewpointCut", OWNER_HOST, v_cut},
+    {"rayPlane", OWNER_HOST, v_ray_plane},
     {"depthToClip", OWNER_HOST, v_depth_to_clip},
     {"emptyDepth", OWNER_HOST, v_empty_depth},
     {"hasPartStart", OWNER_HOST, v_has_part_start},
@@ -258,6 +270,7 @@ static const plr_known known[] = {
     {"light_direction_eye", OWNER_NODE, v_light_direction},
     {"light_location_eye", OWNER_NODE, v_light_location},
     {"eyeToLocal", OWNER_VOLUME, v_eye_to_local},
+    {"localStart", OWNER_VOLUME, v_local_start},
     {"dimensions", OWNER_VOLUME, v_dimensions},
     {"sampleDistance", OWNER_VOLUME, v_step},
     {"referenceLength", OWNER_VOLUME, v_reference},

@@ -89,7 +89,7 @@ typedef struct sight {
     int surface;
 } sight;
 
-static const plr_cast *picking_of(plr_view *view, plr_cast *cast) {
+static plr_cast *picking_of(plr_view *view, plr_cast *cast) {
     if (cast->picking)
         return cast->picking;
     plr_cast *picking = PLR_NEW(&view->arena, plr_cast);
@@ -107,12 +107,15 @@ static sight look(const spot *s, plr_cast *cast) {
     plr_view *view = s->view;
     const plr_gl *gl = &view->engine->gl;
     float pixel[4] = {0};
+    plr_cast *picking = picking_of(view, cast);
+    picking->nearest = cast->nearest;
+    picking->farthest = cast->farthest;
     enter(s, view->color_only);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              s->framebuffer.color, 0);
     gl->ClearColor(0, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT);
-    plr_cast_draw(view, picking_of(view, cast), &s->frame);
+    plr_cast_draw(view, picking, &s->frame);
     plr_framebuffer_read(&s->framebuffer, pixel);
     if (!(pixel[3] > 0) || !(pixel[1] >= 0))
         return (sight){.t = INFINITY};
@@ -121,11 +124,19 @@ static sight look(const spot *s, plr_cast *cast) {
 
 /* ---- Answers ---- */
 
+/* Volumes that are drawn: general worlds have hidden ones, too. */
+static size_t drawn_before(const plr_view *view, size_t index) {
+    size_t count = 0;
+    for (size_t i = 0; i < index; i++)
+        count += !view->volumes.volumes[i].hidden;
+    return count;
+}
+
 static void fill_volume(const spot *s, const sight *seen, plr_pick *pick) {
     const plr_volume_state *volume = &s->view->volumes.volumes[seen->volume];
     double place[3];
     pick->volume = volume->node;
-    pick->volume_index = seen->volume;
+    pick->volume_index = drawn_before(s->view, seen->volume);
     pick->surface = volume->kind == PLR_VOLUME_SURFACES ? seen->surface : -1;
     pick->distance = seen->t;
     world_point(&s->frame, &s->ray, seen->t, pick->position);
@@ -155,6 +166,7 @@ static void pick_in(const spot *s, plr_pick *pick) {
     float empty = s->frame.reversed_depth ? 0 : 1;
     float depth = draw_depth(s, s->view->surface_count);
     sight nearest = {.t = INFINITY};
+    plr_volume_depths(s->view, &s->frame);
     for (size_t i = 0; i < volumes->cast_count; i++) {
         sight seen = look(s, &volumes->casts[i]);
         if (seen.t < nearest.t && seen.volume < volumes->count)
@@ -207,11 +219,12 @@ bool plr_view_pick_box(const plr_view *view, const plr_draw_desc *desc, int x, i
     plr_frame_ray(&frame, x + 0.5, desc->height - y - 0.5, &ray);
     for (size_t i = 0; i < view->volumes.count; i++) {
         double range[2];
-        if (!plr_volume_crossed(&view->volumes.volumes[i], &frame, &ray, range) ||
+        const plr_volume_state *volume = &view->volumes.volumes[i];
+        if (volume->hidden || !plr_volume_crossed(volume, &frame, &ray, range) ||
             !(range[0] < pick->distance))
             continue;
-        pick->volume = view->volumes.volumes[i].node;
-        pick->volume_index = i;
+        pick->volume = volume->node;
+        pick->volume_index = drawn_before(view, i);
         pick->distance = range[0];
         world_point(&frame, &ray, range[0], pick->entry);
         world_point(&frame, &ray, range[1], pick->exit);

@@ -35,6 +35,14 @@ void plr_volume_depths(plr_view *view, const plr_frame *frame) {
         qsort(pass->casts, pass->cast_count, sizeof *pass->casts, farther_first);
 }
 
+/* Where rays begin. An eye that is many times as far away as the volumes are large leaves them no
+ * digits of floats; from near enough, the eye itself is best. */
+static double ray_plane(const plr_cast *cast) {
+    const double far_away = 16;
+    bool is_far = cast->nearest > far_away * (cast->farthest - cast->nearest);
+    return is_far && isfinite(cast->nearest) ? (double)(float)cast->nearest : 0;
+}
+
 /* One casting of rays. */
 typedef struct casting {
     plr_view *view;
@@ -57,6 +65,7 @@ static void run_once(void *user) {
                          .frame = frame,
                          .view = view,
                          .to_world = pass->volumes[cast->members[0]].to_world,
+                         .ray_plane = ray_plane(cast),
                          .volumes = pass->volumes,
                          .volume_count = pass->count,
                          .functions = pass->functions.texture};

@@ -2,6 +2,7 @@
  * it does along the ray is said by a second unit of the same effect: steps.glsl, surfaces.glsl or
  * projection.glsl; its voxels are in a third, grid.glsl. */
 
+uniform vec3 localStart;         /* where the view's axis meets the plane at which rays begin, own coordinates */
 uniform float sampleDistance;   /* own coordinates */
 uniform float referenceLength;  /* an opacity means "after this length", own coordinates */
 uniform vec3 cropMin = vec3(0.0); /* of the box of texture coordinates */
@@ -11,7 +12,7 @@ uniform vec3 brickLow; /* what is cast now */
 uniform vec3 brickHigh;
 #endif
 
-/* Along the ray, t = 0 at the eye: where it is in the box of texture coordinates [0,1], how fast it
+/* Along the ray, t = 0 where it begins: where it is in the box of texture coordinates [0,1], how fast it
  * moves there, and how fast in own coordinates. */
 vec3 ray_origin;
 vec3 ray_direction;
@@ -30,16 +31,19 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
                        const in float limit) {
     vec3 direction = mat3(eyeToLocal) * direction_eye;
     ray_speed = length(direction);
-    ray_origin = (eyeToLocal * vec4(origin_eye, 1.0)).xyz / dimensions + 0.5;
+    ray_origin = (mat3(eyeToLocal) * vec3(origin_eye.xy, 0.0) + localStart) / dimensions + 0.5;
     ray_direction = direction / dimensions;
     enter = start;
     leave = limit;
     cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
 #if PLUG_USED(volume_ray)
-    float t_enter = enter, t_exit = leave;
-    /* PLUG: volume_ray (t_enter, t_exit, origin_eye, direction_eye) */
-    enter = max(enter, t_enter);
-    leave = min(leave, t_exit);
+    float from = enter + eye_distance, to = leave + eye_distance;
+    float t_enter = from, t_exit = to;
+    /* PLUG: volume_ray (t_enter, t_exit, eye_origin, direction_eye) */
+    if (t_enter > from)
+        enter = max(enter, t_enter - eye_distance);
+    if (t_exit < to)
+        leave = min(leave, t_exit - eye_distance);
 #endif
 #if defined(BRICKED) && BRICKED
     float whole_leave = leave;

@@ -1,9 +1,12 @@
 #version 330 core
 /* The base raycaster. It sets up the ray, finds how far it may go, walks it in steps and hands each
  * step to the volumes (Volume.glsl) and to the compositing effect (Composite.glsl). All distances
- * along a ray are in eye space: 0 at the eye, or at the eye's plane where the projection is parallel. */
+ * along a ray are in eye space: 0 at the eye, or at the eye's plane where the projection is parallel.
+ * From an eye that is far away compared with the volumes, floats could not tell their places: there
+ * rays begin at a plane before the volumes. Effects of authors see distances from the eye. */
 
 uniform vec4 viewport; /* x, y, width, height in pixels */
+uniform float rayPlane; /* how far before the eye rays begin */
 #if HAS_OPAQUE
 uniform sampler2D opaqueDepth;
 uniform vec2 depthToClip;  /* scale and shift from the depth buffer to clip space */
@@ -61,8 +64,12 @@ int lowest_bit(uint bits) {
 #endif
 
 #if HAS_PARTS
-float part_start = 0.0;
+float part_start = -NOWHERE;
 float part_end = NOWHERE; /* where it is not the end of the ray */
+#endif
+float eye_distance = 0.0; /* of where the ray begins */
+#if PLUG_USED(volume_ray)
+vec3 eye_origin = vec3(0.0); /* where it would begin at the eye */
 #endif
 #if EARLY_END || WRITES_DEPTH
 /* Whether nothing behind can be seen any more; of a ray that picks, whether something is seen. */
@@ -114,7 +121,7 @@ float depth_distance(float depth, vec3 direction_eye) {
     float ndc = depth * depthToClip.x + depthToClip.y;
     mat4 p = castle_ProjectionMatrix;
     float z = p[2][3] != 0.0 ? -p[3][2] / (ndc + p[2][2]) : (ndc - p[3][2]) / p[2][2];
-    return z / direction_eye.z;
+    return (z + rayPlane) / direction_eye.z;
 }
 #endif
 
@@ -122,7 +129,7 @@ float depth_distance(float depth, vec3 direction_eye) {
 /* What a depth buffer holds of a place of the ray, before what stands there already. */
 float distance_depth(float t, vec3 direction_eye, float before) {
     mat4 p = castle_ProjectionMatrix;
-    float z = t * direction_eye.z;
+    float z = t * direction_eye.z - rayPlane;
     float ndc = (p[2][2] * z + p[3][2]) / (p[2][3] * z + p[3][3]);
     float depth = clamp((ndc - depthToClip.y) / depthToClip.x, 0.0, 1.0);
     return emptyDepth == 0.0 ? max(depth, before) : min(depth, before);
@@ -171,12 +178,17 @@ void main() {
         direction_eye = normalize(vec3((ndc + p[2].xy) / scale, -1.0));
     else
         origin_eye.xy = (ndc - p[3].xy) / scale;
+#if PLUG_USED(volume_ray)
+    eye_origin = origin_eye;
+#endif
+    eye_distance = rayPlane / -direction_eye.z;
+    origin_eye += eye_distance * direction_eye;
 
-    float start = 0.0;
+    float start = -eye_distance;
     float limit = NOWHERE;
 #if HAS_CUT
-    start = viewpointCut.x / -direction_eye.z;
-    limit = viewpointCut.y / -direction_eye.z;
+    start = (viewpointCut.x - rayPlane) / -direction_eye.z;
+    limit = (viewpointCut.y - rayPlane) / -direction_eye.z;
 #endif
 #if HAS_OPAQUE
     float opaque = texelFetch(opaqueDepth, depth_texel(), 0).r;
@@ -492,9 +504,13 @@ void main() {
     }
 #endif
 #endif
+#if PLUG_USED(volume_ray_end)
+    if (depth < NOWHERE)
+        depth += eye_distance;
+#endif
     /* PLUG: volume_ray_end (accumulated, depth) */
 #if PICKS
-    plugray_FragColor = ended_at < NOWHERE ? vec4(ended_at, picked, 1.0) : vec4(0.0);
+    plugray_FragColor = ended_at < NOWHERE ? vec4(ended_at + eye_distance, picked, 1.0) : vec4(0.0);
 #else
     plugray_FragColor = accumulated;
 #endif

@@ -21,7 +21,8 @@ import pathlib
 import re
 import subprocess
 
-from harness import CaseError, Suite, rotate, unit
+from harness import CaseError, Suite, load_json, rotate, unit
+from scenes import constant, front_scene, volume
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "stability"
 PAGE = FOLDER.parents[2] / "docs" / "stability.md"
@@ -234,7 +235,9 @@ class Stability(Suite):
             found = re.search(r"--method ([\w|]+)", text)
             names = [n for n in found.group(1).split("|") if n != "auto"] if found else []
             self.known_methods = [(name, ("--method", name)) for name in names] or [("midpoint", ())]
-            self.plans = [(1 / 255, ("--error", "1/255"))] if "--error" in text else []
+            told = load_json(self.render(front_scene(volume(constant(9))), "--stats", "json").output)
+            if told["error"]["kind"] == "bounded":
+                self.plans = [(1 / 255, ("--error", "1/255"))]
         return self.known_methods
 
     def planned(self):
