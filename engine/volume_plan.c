@@ -17,26 +17,36 @@ enum {
     MOST_LOOKS = 256 /* at styles within styles */
 };
 
+/* A look at styles. */
+typedef struct map_search {
+    const plr_node *map; /* the last one that is on */
+    bool general;        /* what is off must be maps, too (engine/general.h) */
+    bool any;            /* map, on or off */
+    size_t left;
+} map_search;
+
 /* Whether a style, and what is inside, is opacity maps alone; the last one counts. */
-static bool find_map(const plr_node *style, const plr_node **map, size_t *left) {
-    if (!*left)
+static bool find_map(const plr_node *style, bool on, map_search *s) {
+    if (!s->left)
         return false;
-    --*left;
+    --s->left;
     if (!style)
         return true;
-    if (!plr_node_bool(style, "enabled"))
+    on = on && plr_node_bool(style, "enabled");
+    if (!on && !s->general)
         return true;
     if (plr_node_is(style, "OpacityMapVolumeStyle")) {
-        *map = style;
+        s->any = true;
+        s->map = on ? style : s->map;
         return true;
     }
     if (!plr_node_is(style, "ComposedVolumeStyle"))
         return false;
     const plr_field *styles = plr_node_field(style, "renderStyle");
     for (size_t i = 0; i < styles->count; i++)
-        if (!find_map(styles->value.nodes[i], map, left))
+        if (!find_map(styles->value.nodes[i], on, s))
             return false;
-    return *map != NULL; /* without one, voxels stay as they are */
+    return s->any; /* without one, voxels stay as they are */
 }
 
 static plr_table *make_table(plr_view *view, const plr_atlas_place *place) {
@@ -85,13 +95,12 @@ static plr_texture *make_leaps(plr_view *view, const plr_volume_state *state) {
 /* Makes the table of a volume that has one. */
 static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
-    const plr_node *map = NULL;
-    size_t left = MOST_LOOKS;
+    map_search search = {.general = state->general, .left = MOST_LOOKS};
     if (state->kind != PLR_VOLUME_FILLED || styles->type != PLR_SFNODE || !state->blocks ||
         state->authors_see_all || state->labels ||
-        !find_map(styles->count ? styles->value.nodes[0] : NULL, &map, &left))
+        !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
         return false;
-    const plr_atlas_place *place = plr_style_place(view, map, state->grid);
+    const plr_atlas_place *place = plr_style_place(view, search.map, state->grid);
     if (!place)
         return false;
     state->table = make_table(view, place);
