@@ -62,5 +62,7 @@ static void look_at(void *user, plr_node *node, const plr_field *field) {
 
 plr_change plr_view_changed(const plr_view *view) {
     plr_change most = PLR_CHANGE_NONE;
-    return plr_scene_changes(view->scene, view->revision, look_at, &most) ? most : PLR_CHANGE_PARTS;
+    if (!plr_scene_changes(view->scene, view->revision, look_at, &most) || !plr_lights_stay(view))
+        most = PLR_CHANGE_PARTS;
+    return most;
 }

@@ -136,6 +136,8 @@ static bool flatten_and_move(plr_view *view, plr_arena *arena, const plr_matrix 
         return false;
     move_flat(&view->flat, &flat);
     move_parts(view);
+    if (!plr_lights_stay(view))
+        return false; /* some light has come near, or gone */
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         if (!view->volumes.casts[i].divided && plr_cast_is_divided(view, &view->volumes.casts[i]))
             return false; /* another program */

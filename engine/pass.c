@@ -14,6 +14,8 @@ static void add_light(plr_view *view, plr_recipe *recipe, const char *type, cons
     const plr_define no_ambient = {"NO_AMBIENT", "1"};
     if (!plr_general_has(view, light->off, light->node))
         return;
+    if (!view->general && plr_light_is_weak(view, recipe, light, attached, volume))
+        return;
     plr_recipe_builtin(&view->kitchen, recipe, plr_arena_format(&view->arena, "lights/%s", type),
                        type,
                        (plr_binding){.node = light->node,

@@ -41,6 +41,7 @@ typedef struct plr_recipe {
     } defines;             /* for all units */
     const char *primitive; /* what it draws: see plr_link_desc; or NULL */
     bool casts_rays;       /* textures are read in a loop along a ray */
+    bool sees_lights;      /* effects of authors may know the lights */
     plr_sources base;
     plr_node
         *base_node; /* an author's complete shader: its fields give the base's uniforms; or NULL */

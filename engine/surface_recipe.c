@@ -20,6 +20,7 @@ void plr_shape_lights(plr_shape *shape) {
     if (!shape->lit)
         return;
     size_t from = shape->recipe->effects.count;
+    shape->recipe->sees_lights = plr_authors_reach(shape->appearance, shape->leaf->scope);
     plr_pass_lights(shape->view, shape->recipe, shape->leaf->scope, 0, PLR_NO_EFFECT);
     plr_recipe_receive(shape->view, shape->recipe, from);
     plr_recipe_shadows(shape->view, shape->recipe, from, PLR_NO_EFFECT, shape->appearance);

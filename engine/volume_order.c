@@ -1,5 +1,6 @@
-/* An order of volumes that does not depend on how the scene lists them: by a number made of all
- * that they are. Sums over volumes are then the same to the last bit. */
+/* An order of volumes that does not depend on how the scene lists them: by numbers made of all that
+ * they are. Sums over volumes are then the same to the last bit. What the text of a program may
+ * depend on counts first, where they are last: things that move do not change the text. */
 #include "engine/volume_pass.h"
 
 #include <stdlib.h>
@@ -17,9 +18,14 @@ static uint64_t mix(uint64_t hash, const void *data, size_t length) {
     return hash ^ hash >> 29;
 }
 
-static uint64_t mix_node(uint64_t hash, const plr_node *node, size_t *left);
+typedef struct walk {
+    size_t left; /* nodes */
+    bool values; /* numbers, too, that are not whole */
+} walk;
 
-static uint64_t mix_field(uint64_t hash, const plr_field *field, size_t *left) {
+static uint64_t mix_node(uint64_t hash, const plr_node *node, walk *w);
+
+static uint64_t mix_field(uint64_t hash, const plr_field *field, walk *w) {
     size_t numbers = field->count * (size_t)plr_type_components(field->type);
     hash = mix(hash, field->name, strlen(field->name));
     switch (plr_type_kind(field->type)) {
@@ -28,44 +34,46 @@ static uint64_t mix_field(uint64_t hash, const plr_field *field, size_t *left) {
     case PLR_INT:
         return mix(hash, field->value.ints, numbers * sizeof *field->value.ints);
     case PLR_FLOAT:
-        return mix(hash, field->value.floats, numbers * sizeof *field->value.floats);
+        return mix(hash, field->value.floats, w->values ? numbers * sizeof(float) : 0);
     case PLR_DOUBLE:
-        return mix(hash, field->value.doubles, numbers * sizeof *field->value.doubles);
+        return mix(hash, field->value.doubles, w->values ? numbers * sizeof(double) : 0);
     case PLR_STRING:
         for (size_t i = 0; i < field->count; i++)
             hash = mix(hash, field->value.strings[i].text, field->value.strings[i].length + 1);
         return hash;
     case PLR_NODE:
-        for (size_t i = 0; i<field->count && * left> 0; i++)
-            hash = mix_node(hash, field->value.nodes[i], left);
+        for (size_t i = 0; i < field->count && w->left > 0; i++)
+            hash = mix_node(hash, field->value.nodes[i], w);
         return hash;
     }
     return hash;
 }
 
-static uint64_t mix_node(uint64_t hash, const plr_node *node, size_t *left) {
-    if (!node || *left == 0)
+static uint64_t mix_node(uint64_t hash, const plr_node *node, walk *w) {
+    if (!node || w->left == 0)
         return mix(hash, "", 1);
-    --*left;
+    w->left--;
     hash = mix(hash, plr_node_type(node), strlen(plr_node_type(node)));
     for (size_t i = 0; i < plr_node_field_count(node); i++) {
         const plr_field *field = plr_node_field_at(node, i);
         bool data = strcmp(field->name, "image") == 0; /* the hash of the voxels has it */
         if (field->given && !data && strcmp(field->name, "metadata") != 0)
-            hash = mix_field(hash, field, left);
+            hash = mix_field(hash, field, w);
     }
     return hash;
 }
 
 typedef struct ordered {
-    uint64_t hash;
+    uint64_t hashes[3]; /* of its structure, of its values, of its place */
     size_t volume;
 } ordered;
 
-static int by_hash(const void *a, const void *b) {
+static int by_hashes(const void *a, const void *b) {
     const ordered *x = a, *y = b;
-    return x->hash != y->hash ? (x->hash < y->hash ? -1 : 1)
-                              : (x->volume > y->volume) - (x->volume < y->volume);
+    for (size_t i = 0; i < sizeof x->hashes / sizeof *x->hashes; i++)
+        if (x->hashes[i] != y->hashes[i])
+            return x->hashes[i] < y->hashes[i] ? -1 : 1;
+    return (x->volume > y->volume) - (x->volume < y->volume);
 }
 
 void plr_volume_order(plr_view *view, size_t *members, size_t count) {
@@ -74,12 +82,14 @@ void plr_volume_order(plr_view *view, size_t *members, size_t count) {
     ordered *list = PLR_NEW_ARRAY(&view->arena, count, ordered);
     for (size_t i = 0; i < count; i++) {
         const plr_volume_state *state = &view->volumes.volumes[members[i]];
-        size_t left = MOST_NODES;
-        list[i].volume = members[i];
-        list[i].hash = mix(state->hash, state->to_world.m, sizeof state->to_world.m);
-        list[i].hash = mix_node(list[i].hash, state->node, &left);
+        walk structure = {MOST_NODES, false}, values = {MOST_NODES, true};
+        uint64_t basis = UINT64_C(0xcbf29ce484222325);
+        list[i] = (ordered){{mix_node(basis, state->node, &structure),
+                             mix_node(state->hash, state->node, &values),
+                             mix(basis, state->to_world.m, sizeof state->to_world.m)},
+                            members[i]};
     }
-    qsort(list, count, sizeof *list, by_hash);
+    qsort(list, count, sizeof *list, by_hashes);
     for (size_t i = 0; i < count; i++)
         members[i] = list[i].volume;
 }
