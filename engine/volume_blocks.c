@@ -32,7 +32,11 @@ static void reduce(const plr_image *image, const uint32_t size[3], bool greatest
     const uint32_t count[3] = {image->width, image->height, image->depth};
     uint32_t now[3] = {count[0], count[1], count[2]};
     const size_t strides[3] = {1, count[0], (size_t)count[0] * count[1]};
-    float *line = malloc(sizeof *line * ((size_t)count[0] + count[1] + count[2]));
+    size_t longest = 0; /* a line, and its blocks behind it */
+    for (int axis = 0; axis < 3; axis++)
+        if ((size_t)count[axis] + size[axis] > longest)
+            longest = (size_t)count[axis] + size[axis];
+    float *line = malloc(sizeof *line * longest);
     for (int axis = 0; line && axis < 3; axis++) {
         int u = (axis + 1) % 3, v = (axis + 2) % 3;
         for (uint32_t j = 0; j < now[v]; j++)
