@@ -126,35 +126,44 @@ static char *label_of(const drawing *d, size_t row, const chart_point *points, s
     return label;
 }
 
+static void write_place(const drawing *d, FILE *file, size_t row, const chart_point *point) {
+    double error = fmax(rows[row].error(&point->error), rows[row].error(&d->floor));
+    fprintf(file, "%.9g %.9g %.9g", d->columns[0]->time(point), d->columns[1]->time(point), error);
+}
+
 /* The points of a method lie together, from the fastest knob to the slowest. */
 static void write_curve(drawing *d, size_t row, const chart_point *points, size_t count,
                         size_t method) {
     FILE *curve = open_data(d, "curve", row, method), *under = open_data(d, "under", row, method);
-    double floor = rows[row].error(&d->floor);
+    FILE *labels = open_data(d, "labels", row, method);
     bool stopped = false;
-    for (size_t i = 0; curve && under && !stopped && i < count; i++) {
+    for (size_t i = 0; !d->failed && !stopped && i < count; i++) {
         double error = rows[row].error(&points[i].error);
-        stopped = error <= floor;
+        stopped = error <= rows[row].error(&d->floor);
         if (!isfinite(error))
             continue;
-        char *label = label_of(d, row, points, count, i);
-        fprintf(stopped ? under : curve, "%.9g %.9g %.9g \"%s\"\n", d->columns[0]->time(&points[i]),
-                d->columns[1]->time(&points[i]), fmax(error, floor), label ? label : "");
+        write_place(d, stopped ? under : curve, row, &points[i]);
+        putc('\n', stopped ? under : curve);
+        char *label = stopped ? NULL : label_of(d, row, points, count, i);
+        if (label) {
+            write_place(d, labels, row, &points[i]);
+            fprintf(labels, " \"%s\"\n", label);
+        }
         free(label);
     }
     close_data(d, curve);
     close_data(d, under);
+    close_data(d, labels);
 }
 
 static void write_chosen(drawing *d, size_t row) {
     FILE *file = open_data(d, "chosen", row, 0);
-    double floor = rows[row].error(&d->floor);
     for (size_t i = 0; file && i < d->job->points.count; i++) {
         const chart_point *point = &d->job->points.items[i];
-        double error = rows[row].error(&point->error);
-        if (point->chosen && isfinite(error))
-            fprintf(file, "%.9g %.9g %.9g\n", d->columns[0]->time(point),
-                    d->columns[1]->time(point), fmax(error, floor));
+        if (!point->chosen || !isfinite(rows[row].error(&point->error)))
+            continue;
+        write_place(d, file, row, point);
+        putc('\n', file);
     }
     close_data(d, file);
 }
