@@ -132,14 +132,6 @@ static size_t drawn_before(const plr_view *view, size_t index) {
     return count;
 }
 
-/* Volumes that are drawn: general worlds have hidden ones, too. */
-static size_t drawn_before(const plr_view *view, size_t index) {
-    size_t count = 0;
-    for (size_t i = 0; i < index; i++)
-        count += !view->volumes.volumes[i].hidden;
-    return count;
-}
-
 static void fill_volume(const spot *s, const sight *seen, plr_pick *pick) {
     const plr_volume_state *volume = &s->view->volumes.volumes[seen->volume];
     double place[3];

@@ -174,15 +174,6 @@ typedef enum plr_slot_kind {
     PLR_SLOT_KINDS
 } plr_slot_kind;
 
-/* What general programs have room for, more than the scene has. */
-typedef enum plr_slot_kind {
-    PLR_SLOT_DIRECTIONAL,
-    PLR_SLOT_POINT,
-    PLR_SLOT_SPOT,
-    PLR_SLOT_PLANE,
-    PLR_SLOT_KINDS
-} plr_slot_kind;
-
 struct plr_view {
     plr_arena arena;     /* of worlds: renewed when the scene changes */
     plr_arena lasting;   /* of what is kept then: textures, programs, sources */
@@ -193,7 +184,6 @@ struct plr_view {
     struct {
         bool asked, known; /* its general programs were asked for; and are built */
         uint64_t of;       /* what the scene was then */
-        size_t slots[PLR_SLOT_KINDS], most[PLR_SLOT_KINDS]; /* see engine/general.h */
         size_t slots[PLR_SLOT_KINDS], most[PLR_SLOT_KINDS]; /* see engine/general.h */
     } general_state;
     plr_matrix eye_to_world; /* of the last look at the scene */

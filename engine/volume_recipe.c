@@ -58,7 +58,6 @@ void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, si
     const plr_leaf *leaf = view->volumes.leaves[volume];
     const plr_field *own = plr_node_field(leaf->node, "clipPlanes");
     size_t before = recipe->effects.count;
-    size_t before = recipe->effects.count;
     for (size_t i = 0; own && i < own->count; i++)
         if (own->value.nodes[i])
             add_plane(view, recipe, own->value.nodes[i], &leaf->to_world,
@@ -69,9 +68,6 @@ void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, si
             const plr_placed *plane = &scope->clip_planes.items[i];
             add_plane(view, recipe, plane->node, &plane->to_world, plane->off, volume, attached);
         }
-    size_t count = recipe->effects.count - before;
-    for (size_t i = plr_general_spares(view, PLR_SLOT_PLANE, count); i > 0; i--)
-        add_plane(view, recipe, NULL, &leaf->to_world, true, volume, attached);
     size_t count = recipe->effects.count - before;
     for (size_t i = plr_general_spares(view, PLR_SLOT_PLANE, count); i > 0; i--)
         add_plane(view, recipe, NULL, &leaf->to_world, true, volume, attached);
