@@ -10,6 +10,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 from command import Command
+from pictures import read_npy
 from tap import check, check_equal, done, skip
 
 plugray = Command(sys.argv[1])
@@ -61,6 +62,7 @@ def one_method(rows, name):
 # ---- the table
 
 rows, reference = table("--error", "1/100")
+whole = rows
 names = list(dict.fromkeys(row["method"] for row in rows))
 check(names[0] == "midpoint" and names[-1] == "planner", "methods come in their order", names)
 check(all(number(row, column) > 0 for row in rows for column in ("cpu_ms", "wall_ms", "compile_ms")),
@@ -97,6 +99,49 @@ check_equal([round(1 / number(row, "knob")) for row in rows if row["chosen"] == 
             "1/255 is asked for if nothing is")
 rows, _ = table("--methods", "midpoint", "--backend", "osmesa", "--viewpoint", "1", "--time", "1")
 check(len(rows) == 6 and not any(row["chosen"] == "1" for row in rows), "no planner, nothing chosen")
+
+# ---- the numbers, computed anew from pictures of plugray render
+
+
+def picture(step):
+    plugray.expect(0, "render", NAME, "-o", "picture.npy", "--size", "20x16", "--no-cache", "--step", step)
+    return read_npy((plugray.folder / "picture.npy").read_bytes())[1]
+
+
+def difference(a, b):
+    """RMSE and maximum."""
+    distances = [abs(x - y) for x, y in zip(a, b)]
+    return (sum(d * d for d in distances) / len(distances)) ** 0.5, max(distances)
+
+
+def extrapolated(coarse, fine):
+    return [f + (f - c) / 3 for c, f in zip(coarse, fine)]
+
+
+def same(row, errors):
+    return all(abs(number(row, column) - error) <= 1e-6 * error + 1e-12
+               for column, error in zip(("rmse", "max"), errors))
+
+
+levels = [picture(step) for step in ("0.25", "0.125", "0.0625")]
+truth = extrapolated(levels[1], levels[2])
+check(same(reference, difference(truth, extrapolated(levels[0], levels[1]))),
+      "the reference's error is the difference of two extrapolations", reference)
+fixed = {number(row, "knob"): row for row in one_method(whole, "midpoint")}
+for step, values in ((1, picture("1")), (0.25, levels[0]), (0.0625, levels[2])):
+    check(same(fixed[step], difference(values, truth)), f"the error of steps of {step}", fixed[step])
+
+# ---- scenes that not every method goes with
+
+plugray.write("colors.x3dv", HEAD + "VolumeData { voxels PixelTexture3D { image 4 2 2 2 " +
+              " ".join(["0xFF804020", "0x20408080"] * 4) + " } }\n")
+run = plugray.expect(0, "chart", "colors.x3dv", "-o", "colors.csv", *QUICK,
+                     stderr="preintegrated: the scene cannot be sampled so; it is left out [no-method]")
+names = {line.split(",")[0] for line in plugray.read("colors.csv").splitlines()[1:]}
+check({"midpoint", "planner", "reference"} <= names and "preintegrated" not in names,
+      "what the scene cannot be sampled by has no rows", names)
+plugray.expect(1, "chart", "colors.x3dv", "-o", "no.csv", *QUICK, "--methods", "preintegrated",
+               stderr="error: preintegrated: the scene cannot be sampled so")
 
 # ---- pictures
 
