@@ -5,7 +5,7 @@ import math
 import random
 
 import analytic_truth as truth
-from analytic_data import (BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT, OBLIQUE, TABLE, Sheet, add_cases,
+from analytic_data import (AT_LEAST, BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT, OBLIQUE, TABLE, Sheet, add_cases,
                            check_backends, check_denser, check_order, grey, image3d, mapped_case,
                            offered)
 from analytic_grid import Grid
@@ -19,7 +19,7 @@ suite = Analytic()
 DIMENSIONS = (0.64, 0.5, 0.56)
 COARSE = [2 * s for s in HALVINGS]
 VIEW = Parallel(0.5)
-EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: 2}
+EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: AT_LEAST}
 
 # ---- fields of a place in own coordinates, and their truths for a chord
 

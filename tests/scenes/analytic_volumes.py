@@ -182,7 +182,7 @@ def placed_case(name, place, dimensions=DIMENSIONS, span=None, behind=None, cont
 
     file = f"placed-{name.replace(' ', '-')}.nrrd"
     case = mapped_case(f"V19 {name}", image3d(file), {file: sampled(box, value)}, box, lambda s: kappa * s,
-                       lambda s: COLOR, exact, reference, orders=ALWAYS, steps=(1, 0.3, 0.04),
+                       lambda s: COLOR, exact, reference, orders=ALWAYS, steps=(1, 0.1),
                        tolerance={"preintegrated": 2e-5})
     case.content += content
     case.beside = behind or case.beside
@@ -227,7 +227,7 @@ SIDES = {"front": (0, 1, 0, 0.2), "right": (0, 1, 0, 1.5), "left": (0, 1, 0, -1.
 inside = Sheet(suite, [placed_case(f"eye inside, {name}", Transform(rotation=turn)) for name, turn in SIDES.items()]
                + [placed_case("eye inside what is sheared", PLACES["sheared"])], Perspective(0.07, 1.2))
 add_cases(inside, inside.cases)
-for scale in (1e-3, 1e3):
+for scale in (1e-4, 1e4):
     near = Sheet(suite, [placed_case(f"all {scale:g} times as large", Transform(rotation=TURN, scale=(scale,) * 3))],
                  Perspective(1.1 * scale, 0.5))
     add_cases(near, near.cases)
@@ -253,7 +253,8 @@ def random_places(seed):
     size = (2, 2, 2) if seed < 4 else tuple(numbers.randint(1, 7) for _ in range(3))
     dimensions = tuple(numbers.uniform(0.5, 0.9) for _ in range(3))
     turn = tuple(numbers.uniform(-1, 1) for _ in range(3)) + (numbers.uniform(0, 3),)
-    values = [numbers.random() for _ in range(math.prod(size))]
+    # far from opaque: where the extinction of the default ramp has no bound, no order holds
+    values = [0.8 * numbers.random() for _ in range(math.prod(size))]
     texels = [tuple(numbers.random() for _ in range(3)) + (0.7 * numbers.random(),)
               for _ in range(numbers.randint(2, 9))]
     return size, dimensions, turn, values, texels if seed % 2 else None
@@ -296,7 +297,7 @@ def V12():
 def backends():
     "both backends"
     for one in (mixed, placed, inside):
-        check_backends(one, 0.3)
+        check_backends(one, 1)
 
 
 suite.main(__name__)
