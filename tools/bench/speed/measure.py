@@ -117,6 +117,7 @@ class Point:
         self.cpu, self.wall, self.times = [], [], []
         self.error = None
         self.said = None  # what plugray says about its error
+        self.plan = None  # and what it has chosen
 
     @property
     def words(self):
@@ -136,7 +137,7 @@ class Point:
             known = self.cpu[0] / 1e3 if self.cpu else 0.2
             repeat = min(max(round(budget / max(known, 1e-3)), 1), 25)
             stats = self.bench.plugray.render(setting.scene, self.words, setting.size, picture, repeat)
-            frame, self.said = stats["frame"], stats.get("error")
+            frame, self.said, self.plan = stats["frame"], stats.get("error"), stats.get("plan")
         else:
             frame = self.bench.vtk.render(setting.volume, self.method.who, self.knob, setting.size,
                                           setting.perspective, setting.shaded, picture, budget)

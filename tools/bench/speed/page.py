@@ -67,22 +67,31 @@ def summary(rows):
     return "Rows: " + ", ".join(f"{n} {name}" for name, n in counts.items()) + "."
 
 
+def chosen(point):
+    """What the planner has made of a wanted error."""
+    if not point.plan or point.method.knob != "--error":
+        return "-"
+    return ", ".join(filter(None, (point.plan.get("method"), f"{point.plan['step']:g}" if point.plan.get("step")
+                                   else "", "leaps" if point.plan.get("leaps") else "")))
+
+
 def points_table(points, clock):
     rows = []
     for point in points:
-        said = point.said or {}
+        said, plan = point.said or {}, chosen(point)
         kind = f"{said['kind']} {said['value']:.2g}" if said.get("value") else "-"
         noise = f"{100 * point.slack / 2:.1f} %" if len(point.times) > 1 else "one round"
         rows.append((point.method.name, f"`{point.settings_text()}`", f"{point.time:.1f}", noise,
-                     f"{point.error.rmse:.2e}", f"{point.error.most:.4f}", kind))
-    return table(("method", "setting", f"{clock} ms", "standard error", "RMSE", "greatest error", "says"), rows)
+                     f"{point.error.rmse:.2e}", f"{point.error.most:.4f}", plan, kind))
+    return table(("method", "setting", f"{clock} ms", "standard error", "RMSE", "greatest error", "chosen",
+                  "says"), rows)
 
 
 def write_csv(results, path):
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("setting", "pixels", "method", "knob", "options", "cpu_ms", "cpu_standard_error", "wall_ms",
-                         "rmse", "max", "said_kind", "said_value", "rounds"))
+                         "rmse", "max", "said_kind", "said_value", "chosen", "rounds"))
         for setting, points in results.items():
             for p in points:
                 said = p.said or {}
@@ -90,7 +99,8 @@ def write_csv(results, path):
                                  f"{engines.median(p.cpu):.2f}",
                                  f"{measure.standard_error(p.cpu) * engines.median(p.cpu):.2f}",
                                  f"{engines.median(p.wall):.2f}", f"{p.error.rmse:.4e}",
-                                 f"{p.error.most:.4e}", said.get("kind") or "", said.get("value") or "", len(p.cpu)))
+                                 f"{p.error.most:.4e}", said.get("kind") or "", said.get("value") or "",
+                                 chosen(p), len(p.cpu)))
 
 
 def write(bench, command, results, rows, series, folder):
