@@ -104,7 +104,8 @@ void plr_recipe_receive(plr_view *view, plr_recipe *recipe, size_t from) {
         if (!is_straight(recipe, i))
             continue;
         plr_define *defines = PLR_NEW_ARRAY(&view->arena, effect->define_count + 1, plr_define);
-        memcpy(defines, effect->defines, effect->define_count * sizeof *defines);
+        if (effect->define_count)
+            memcpy(defines, effect->defines, effect->define_count * sizeof *defines);
         defines[effect->define_count++] = in_shadow;
         effect->defines = defines;
     }
