@@ -3,10 +3,15 @@
 
 import csv
 import os
+import pty
+import re
+import select
 import shutil
 import stat
 import struct
+import subprocess
 import sys
+import time
 import xml.etree.ElementTree as xml
 
 from command import Command
@@ -241,5 +246,19 @@ for name, script in (("fails", "echo some fault >&2; printf half >chart; exit 1"
     check("fails" != name or "some fault" in run.stderr, "what it said is told", run.stderr)
 run = plugray.expect(0, "chart", NAME, "-o", "kept.svg", *BRIEF, env=with_gnuplot("echo whole >chart"))
 check_equal((plugray.read("kept.svg"), left_behind()), ("whole\n", []), "what gnuplot wrote is the chart")
+# ---- progress
+
+ours, theirs = pty.openpty()
+with subprocess.Popen([plugray.program, "chart", NAME, "-o", "no.csv", "--size", "640x480", "--no-cache"],
+                      cwd=plugray.folder, stdin=subprocess.DEVNULL, stderr=theirs) as process:
+    shown, end = b"", time.monotonic() + 60
+    while not re.search(rb"\[#* *\] \d+ %, \d+ s", shown) and time.monotonic() < end:
+        if select.select([ours], [], [], 0.1)[0]:
+            shown += os.read(ours, 4096)
+    process.terminate()
+check(re.search(rb"plugray: [a-z ]+ \[#* *\] \d+ %, \d+ s", shown), "a bar on a terminal tells how far it is",
+      shown)
+os.close(theirs)
+os.close(ours)
 check(not any(path.name.startswith("no.") for path in plugray.folder.iterdir()), "no chart where one failed")
 done()
