@@ -50,6 +50,8 @@ def noise(seed=1):
 class View:
     """A camera on the +Z axis, and a box of side 1 that is turned in front of it."""
 
+    far = 0.9  # half of the field, in parallel projection
+
     def __init__(self, axis, angle, perspective=False, pixels=96):
         self.turn = (axis, angle)
         self.perspective = perspective
@@ -58,7 +60,7 @@ class View:
 
     def scene(self, field, value, code):
         view = ("Viewpoint { position 0 0 2 fieldOfView .9 }\n" if self.perspective
-                else "OrthoViewpoint { position 0 0 2 fieldOfView -.9 -.9 .9 .9 }\n")
+                else f"OrthoViewpoint {{ position 0 0 2 fieldOfView {-self.far} {-self.far} {self.far} {self.far} }}\n")
         axis, angle = self.turn
         shade = "void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color = " + code + "; }"
         return scene(
@@ -70,7 +72,7 @@ class View:
         """Six numbers each, in texture coordinates; directions are of length 1 in the box."""
         numbers = array.array("d")
         axis, angle = self.turn
-        far = math.tan(0.45) if self.perspective else 0.9
+        far = math.tan(0.45) if self.perspective else self.far
         columns = [rotate(axis, -angle, unit) for unit in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
         for row in range(self.pixels):
             y = far * (1 - (2 * row + 1) / self.pixels)
