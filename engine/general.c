@@ -76,9 +76,8 @@ static void say(const plr_diags *said, plr_diags *diags) {
     }
 }
 
-void plr_general_remake(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags) {
+void plr_general_remake(plr_view *view, plr_diags *diags) {
     size_t before = is_interactive(view) ? plr_cache_get_stats(view->engine->cache).compiled : 0;
-    view->eye_to_world = *eye_to_world;
     if (!is_interactive(view)) {
         make(view, false, false, diags);
         return;

@@ -31,7 +31,8 @@ size_t plr_general_spares(plr_view *view, plr_slot_kind kind, size_t count);
 
 /* ---- In views ---- */
 
-/* Makes the world anew after an edit, of the programs that can be had. */
-void plr_general_remake(plr_view *view, const plr_matrix *eye_to_world, plr_diags *diags);
+/* Makes the world anew after an edit, as seen from view->eye_to_world, of the programs that can be
+ * had. */
+void plr_general_remake(plr_view *view, plr_diags *diags);
 
 #endif

@@ -132,8 +132,9 @@ void plr_view_remake(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
 
 static void follow(plr_view *view, const plr_matrix *eye, plr_diags *diags) {
     plr_change change = plr_view_changed(view);
+    view->eye_to_world = *eye;
     if (change == PLR_CHANGE_PARTS || (change == PLR_CHANGE_PLACES && !plr_view_move(view, eye)))
-        plr_general_remake(view, eye, diags);
+        plr_general_remake(view, diags);
     else
         view->stats.built = 0;
     view->revision = plr_scene_revision(view->scene);

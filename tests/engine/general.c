@@ -318,6 +318,37 @@ static void test_fault(plr_context *context) {
     plr_engine_destroy(&engine);
 }
 
+/* Programs are taken over where the viewer is now: a billboard turns to him. */
+static void test_moves(plr_context *context) {
+    static const example billboard = {
+        .text = HEAD "Billboard { axisOfRotation 0 1 0 children Shape { appearance Appearance {\n"
+                     "material UnlitMaterial { } } geometry Box { size 1.6 1 0.01 } } }\n"
+                     "DEF V OrthoViewpoint { fieldOfView -1 -1 1 1 position 0 0 10 }\n"
+                     "DEF T TimeSensor { cycleInterval 1 loop TRUE }\n"
+                     "DEF P PositionInterpolator { key [ 0 1 ] keyValue [ 0 0 10 10 0 10 ] }\n"
+                     "ROUTE T.fraction_changed TO P.set_fraction\n"
+                     "ROUTE P.value_changed TO V.position\n"};
+    plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address, .user = context};
+    plr_engine *engine = plr_engine_create(&desc, NULL);
+    plr_scene *scene = parse(&billboard);
+    const plr_view_desc interactive = {.interactive = true, .viewpoint = "V"};
+    plr_view *view = plr_view_create(engine, scene, &interactive, NULL);
+    plr_picture start = {0}, moved = {0}, later = {0};
+    CHECK(draw(view, &start));
+    CHECK(plr_view_update(view, 0.5, NULL));
+    CHECK(draw(view, &moved));
+    settle(view);
+    CHECK(draw(view, &later));
+    CHECK(difference(&start, &moved) > 0.1);
+    check_same(&later, &moved, 0, "the viewer has moved");
+    plr_picture_free(&start);
+    plr_picture_free(&moved);
+    plr_picture_free(&later);
+    plr_view_destroy(&view);
+    plr_scene_destroy(&scene);
+    plr_engine_destroy(&engine);
+}
+
 /* A hidden volume is in general programs; nobody can tell. */
 static void test_picks(plr_context *context) {
     static const example two = {
@@ -365,6 +396,7 @@ int main(void) {
         if (!all) {
             test_fault(context);
             test_picks(context);
+            test_moves(context);
         }
         all = true;
         plr_context_destroy(&context);
