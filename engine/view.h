@@ -36,6 +36,7 @@ typedef struct plr_cast {
     bool divided;             /* by translucent surfaces inside: it is drawn in parts */
     bool writes_depth;
     bool drawn;               /* in this frame */
+    unsigned slabs;           /* along the view, in which it is cast */
     bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
     struct plr_cast *picking; /* the same that picks; NULL: not asked for yet */
     plr_plan plan;            /* how rays are integrated */

@@ -77,10 +77,16 @@ static void run_once(void *user) {
 static void run(plr_view *view, const plr_cast *cast, const plr_frame *frame) {
     casting once = {view, cast, frame};
     const plr_volume_state *first = &view->volumes.volumes[cast->members[0]];
-    if (first->grid->brick_sides[0])
+    if (first->grid->brick_sides[0]) {
         plr_bricks_cast(view, first, frame, run_once, &once);
-    else
+        return;
+    }
+    for (unsigned slab = cast->slabs; slab-- > 0;) {
+        plr_frame part = *frame;
+        plr_cast_slab(cast, slab, part.cut);
+        once.frame = &part;
         run_once(&once);
+    }
 }
 
 void plr_cast_draw(plr_view *view, const plr_cast *cast, const plr_frame *frame) {

@@ -59,6 +59,11 @@ bool plr_volume_keeps_clear(const plr_volume_state *state);
 /* Whether a cast may pass over samples of such volumes: nobody else asks for each of them. */
 bool plr_cast_skips(const plr_view *view, const plr_cast *cast, bool early_end);
 void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
+/* Divides a cast whose rays take more steps than the renderer can in one drawing; where that cannot
+ * be, its steps become longer, with a warning (no diagnostics: it stays as it is). */
+void plr_cast_find_slabs(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
+/* Narrows the near and far planes to a slab; 0 is the nearest. */
+void plr_cast_slab(const plr_cast *cast, unsigned slab, double cut[2]);
 /* The clip planes of a volume: its own, in the node's coordinates, and those of the scene around
  * it.
  */

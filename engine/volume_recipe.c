@@ -173,8 +173,6 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
     cast->writes_depth = !cast->picks && any_writes_depth(view, cast);
     cast->divided = !cast->picks && plr_cast_is_divided(view, cast);
     bool events = has_kind(view, cast, true);
-    double cut[2];
-    plr_viewpoint_cut(view->viewpoint, cut);
     const struct {
         const char *name;
         int value;
@@ -190,7 +188,6 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         {"WRITES_DEPTH", cast->writes_depth},
         {"PICKS", cast->picks},
         {"EARLY_END", early_end},
-        {"HAS_CUT", cut[0] > 0 || isfinite(cut[1])},
         {"CASTLE_GLSL_VERSION_UPGRADE", 1},
     };
     for (size_t i = 0; i < sizeof defines / sizeof *defines; i++)
@@ -225,6 +222,10 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     for (size_t i = 0; i < cast->count; i++)
         add_authors(view, recipe, cast->members[i], attached[i]);
     add_group_effects(view, cast, attached);
+    plr_cast_find_slabs(view, cast, early_end, diags);
+    double cut[2];
+    plr_viewpoint_cut(view->viewpoint, cut);
+    plr_recipe_define(k, recipe, "HAS_CUT", cast->slabs > 1 || cut[0] > 0 || isfinite(cut[1]));
     plr_recipe_define(k, recipe, "SKIPS",
                       !is_segmented(cast) && plr_cast_skips(view, cast, early_end));
 }

@@ -134,10 +134,10 @@ def last_steps(row):
     seen = [i for i, (o, d) in enumerate(rays) if box_interval(o, d)[1] > 0 and
             exit_depth(o, d) < -0.5 + 1e-9]
     for name, options in row.methods():
-        for step in (0.5, 0.37):
+        for step in (0.19, 0.13):  # of a voxel's mean side; the coat is as thick as 0.198
             got = pixels_of(row.picture("--step", step, *options, size="96x4", scene=coat))
             missed = sum(got[i][3] < 1 - 1e-3 for i in seen)
-            row.count("rays that miss an opaque coat of 1/2 voxel on the back", missed, case=f"{name} {step}")
+            row.count("rays that miss an opaque coat, thicker than a step, on the back", missed, case=f"{name} {step}")
 
 
 def exit_depth(origin, direction):
@@ -206,8 +206,8 @@ def thin(row):
     exact = 1 - (254 / 255) ** 512
     for name, options in row.methods():
         color = row.middle("--step", 0.25, *options)
-        row.measure("A differs by", abs(color[3] - exact), at_most=2e-5, case=name)
-        row.measure("colour differs by", abs(color[0] - exact / 255), at_most=2e-5, case=name)
+        row.measure("A differs by", abs(color[3] - exact), at_most=1e-4, case=name)
+        row.measure("colour differs by", abs(color[0] - exact / 255), at_most=4e-4, case=name)
     for asked, options in row.planned():
         row.measure(AS_ASKED, abs(row.middle(*options)[3] - exact), at_most=asked)
 
@@ -402,16 +402,23 @@ def finest(row):
         row.measure(AS_ASKED, max(worst([c], [exact]) for c in pixels_of(p)), at_most=asked)
 
 
+SHADOWED = "renderStyle ShadedVolumeStyle { lighting TRUE shadows TRUE material Material { } } dimensions 1 1 1024"
+LONG_MAXIMUM = 'renderStyle ProjectionVolumeStyle { type "MAX" } dimensions 1 1 1024'
+
+
 @suite.row("F16", "a cap on steps", scene=front_scene(volume(voxels(1, (1, 1, 1024), [255] + [0] * 1023), dimensions=(1, 1, 1024)))
            .replace("position 0 0 10", "position 0 0 600"),
            shows="1023 empty voxels, then an opaque one; again with a haze and steps of 1/2048",
-           invariant="the back is reached with 65536 steps, and with two million, or the picture says that it is not",
-           fault="llvmpipe ends all loops of a pixel after 65535 turns in silence")
+           invariant="the back is reached with 65536 steps, with two million, and where each asks for light; or a message says "
+                     "that it is not")
 def many_steps(row):
     haze = row.changed((f"image [1 1 1 1024 255 {' '.join(['0'] * 1023)}]", f"image [1 1 1 1024 255 {' '.join(['1'] * 1023)}]"))
     for name, options in row.methods():
         row.measure("what shines through the opaque voxel", 1 - row.middle("--step", 1 / 64, *options)[3], at_most=1e-3, case=name)
         row.measure("what shines through behind haze", 1 - row.middle("--step", 1 / 64, *options, scene=haze)[3],
+                    at_most=1e-3, case=name)
+        lit = haze.replace("dimensions 1 1 1024", SHADOWED) + "DirectionalLight { direction 0 0 -1 shadows TRUE }\n"
+        row.measure("what shines through behind haze in its own shadow", 1 - row.middle("--step", 1 / 2, *options, scene=lit)[3],
                     at_most=1e-3, case=name)
         exact = 1 - (254 / 255) ** 512
         cut = haze.replace("dimensions 1 1 1024", "cropMin 0 0 .5 dimensions 1 1 1024")
@@ -420,6 +427,8 @@ def many_steps(row):
             row.measure("half the haze is wrong by", abs(p[3] - exact), at_most=1e-3, case=f"{name} {step:.2g}")
     for asked, options in row.planned():
         row.measure(AS_ASKED, max(1 - row.middle(*options)[3], 1 - row.middle(*options, scene=haze)[3]), at_most=asked)
+    maximum = row.render("--step", 1 / 64, "--probe", "0,0", size="1x1", scene=row.text.replace("dimensions 1 1 1024", LONG_MAXIMUM))
+    row.measure("messages where a projection cannot take as many", len(maximum.with_code("limit")), at_least=1)
 
 
 def cube(size):
