@@ -11,7 +11,9 @@ from analytic_data import (AT_LEAST, BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT,
 from analytic_grid import Grid
 from analytic_page import Analytic
 from analytic_rays import Box, Parallel, Transform, centres, words
-from harness import dot, unit
+from analytic_shapes import (AXIS, BREADTH, CENTRE, MIDDLE, RADIUS, WIDTH, bell, exponential, nearest,
+                             parabola)
+from harness import dot
 from scenes import effect
 
 suite = Analytic()
@@ -20,39 +22,6 @@ DIMENSIONS = (0.64, 0.5, 0.56)
 COARSE = [2 * s for s in HALVINGS]
 VIEW = Parallel(0.5)
 EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: AT_LEAST}
-
-# ---- fields of a place in own coordinates, and their truths for a chord
-
-AXIS, WIDTH = unit((0.3, -0.4, -1.1)), 0.15  # V6
-CENTRE, BREADTH = (0.07, -0.05, 0.11), 0.12  # V7
-MIDDLE, RADIUS = (0.03, 0.01, -0.02), 0.22   # V8
-
-
-def exponential(place):
-    return math.exp(-(dot(AXIS, place) + 0.45) / WIDTH)
-
-
-def distance(a, b):
-    return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)))
-
-
-def bell(place, centre=CENTRE, breadth=BREADTH):
-    return math.exp(-(distance(place, centre) / breadth) ** 2 / 2)
-
-
-def parabola(place):
-    return max(1 - (distance(place, MIDDLE) / RADIUS) ** 2, 0.0)
-
-
-def solid(place):
-    return 1.0 if distance(place, MIDDLE) < RADIUS else 0.0
-
-
-def nearest(chord, centre):
-    """How near the ray comes to a place, and how far along it that is."""
-    way = dot(chord.direction, tuple(c - e for c, e in zip(centre, chord.entry)))
-    return distance(chord.at(way), centre), way
-
 
 KAPPAS = {"V6": 25.0, "V7": 24.0, "V8b": 18.0, "V8a": 6.0}
 

@@ -16,7 +16,7 @@ EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: AT_LEAST}
 ALWAYS = dict.fromkeys(EVERY, EXACT)
 # Integrals over a value are read from a table: what floats make of small differences in it.
 READ = {TABLE: 2e-5, CELLS: 2e-5}
-# An edge of a function lies between two of the table's 1025 values: measured 1.7e-3.
+# An edge of a function may lie between two of the table's 1025 values.
 EDGES = {TABLE: 2.5e-3, CELLS: 2.5e-3}
 
 # ---- V1, V2: a constant volume
