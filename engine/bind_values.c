@@ -76,10 +76,11 @@ static void v_has_part_start(const plr_known_context *c, float *out) {
 static void v_time(const plr_known_context *c, float *out) {
     out[0] = (float)c->values->frame->time;
 }
-/* A ray ends where what is left is below an eighth of the error that one 8-bit step is. */
+/* A ray ends where what is left is below an eighth of the error that is asked for; if none is, of
+ * an 8-bit step. */
 static void v_transparency_left(const plr_known_context *c, float *out) {
-    (void)c;
-    out[0] = 1.0f / 255.0f / 8.0f;
+    double error = c->values->view->desc.error;
+    out[0] = (float)((error > 0 ? error : 1.0 / 255) / 8);
 }
 static void v_node_to_eye(const plr_known_context *c, float *out) {
     plr_matrix m = c->binding->to_world;

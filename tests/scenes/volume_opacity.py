@@ -33,6 +33,18 @@ def steps():
 
 
 @suite.case
+def ends():
+    "a ray ends where what is left is below an eighth of the error that is asked for"
+    white = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 1 4 0xFFFFFF80 0xFFFFFF80 } }"
+    text = front_scene(volume(constant(9, (32, 32, 32)), white))
+    for error in ("1/16", "1/255", "1/4095", "0.000001"):
+        over, _, under = error.partition("/")
+        most = float(over) / float(under or 1) / 8
+        got = suite.middle(text, "--error", error)[0]
+        suite.check(f"error {error}", 1 - most - 1e-7 <= got <= 1, got)
+
+
+@suite.case
 def opaque_at_first_touch():
     "a voxel of full opacity hides what is behind it, however short the step"
     for step in (2, 0.5, 0.01):

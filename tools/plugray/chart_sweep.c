@@ -136,6 +136,7 @@ static void choose_reference(chart_job *job, double milliseconds) {
 static bool draw_level(chart_job *job, double step, plr_picture *picture, workload *work) {
     plr_view_desc desc = job->scene.view;
     desc.step = step;
+    desc.error = 1e-6; /* rays go on until nothing is left */
     desc.method = PLR_METHOD_MIDPOINT;
     plr_view *view = make_view(job, &desc, "the reference");
     plr_view_stats stats = {0};
