@@ -73,6 +73,12 @@ void cross_box(const in vec3 low, const in vec3 high, const in vec3 origin, cons
     vec3 near = min(to_low, to_high), far = max(to_low, to_high);
     enter = max(max(near.x, near.y), max(near.z, enter));
     leave = min(min(far.x, far.y), min(far.z, leave));
+}
+
+/* The same with a box that a scene gives: it may have no inside. */
+void cross_cropped_box(const in vec3 low, const in vec3 high, const in vec3 origin, const in vec3 direction,
+                       inout float enter, inout float leave) {
+    cross_box(low, high, origin, direction, enter, leave);
     if (any(greaterThan(low, high)))
         leave = -NOWHERE;
 }

@@ -116,9 +116,10 @@ void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) {
     /* PLUG: add_light (lit, vec4(s.position_eye, 1.0), style_normal(s), material) */
 #endif
 #if MATERIAL
-    lit.rgb += material_emissiveColor;
+    color = vec4(rgb_of(lit) + material_emissiveColor, color.a);
+#else
+    color = vec4(rgb_of(lit), color.a);
 #endif
-    color.rgb = lit.rgb;
 #elif MATERIAL && defined(material_UnlitMaterial)
     color.rgb = material_emissiveColor;
 #elif MATERIAL && defined(material_PhysicalMaterial)

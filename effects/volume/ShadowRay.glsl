@@ -56,7 +56,7 @@ void PLUG_volume_shadow(inout float depth, const in vec3 from_eye, const in vec3
     ray_origin_eye = from_eye;
     ray_direction_eye = direction_eye;
     float enter = 0.0, leave = reach;
-    cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
+    cross_cropped_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
 #if PLUG_USED(volume_ray)
     float t_enter = enter, t_exit = leave;
     /* PLUG: volume_ray (t_enter, t_exit, from_eye, direction_eye) */

@@ -5,8 +5,10 @@
 uniform vec3 localStart;         /* where the view's axis meets the plane at which rays begin, own coordinates */
 uniform float sampleDistance;   /* own coordinates */
 uniform float referenceLength;  /* an opacity means "after this length", own coordinates */
+#if defined(GIVEN_cropMin) || defined(GIVEN_cropMax)
 uniform vec3 cropMin = vec3(0.0); /* of the box of texture coordinates */
 uniform vec3 cropMax = vec3(1.0);
+#endif
 #if defined(BRICKED) && BRICKED
 uniform vec3 brickLow; /* what is cast now */
 uniform vec3 brickHigh;
@@ -35,15 +37,17 @@ void PLUG_volume_begin(const in vec3 origin_eye, const in vec3 direction_eye, co
     ray_direction = direction / dimensions;
     enter = start;
     leave = limit;
-    cross_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
+#if defined(GIVEN_cropMin) || defined(GIVEN_cropMax)
+    cross_cropped_box(max(cropMin, 0.0), min(cropMax, 1.0), ray_origin, ray_direction, enter, leave);
+#else
+    cross_box(vec3(0.0), vec3(1.0), ray_origin, ray_direction, enter, leave);
+#endif
 #if PLUG_USED(volume_ray)
     float from = enter + eye_distance, to = leave + eye_distance;
     float t_enter = from, t_exit = to;
     /* PLUG: volume_ray (t_enter, t_exit, eye_origin, direction_eye) */
-    if (t_enter > from)
-        enter = max(enter, t_enter - eye_distance);
-    if (t_exit < to)
-        leave = min(leave, t_exit - eye_distance);
+    enter = mix(enter, max(enter, t_enter - eye_distance), t_enter > from);
+    leave = mix(leave, min(leave, t_exit - eye_distance), t_exit < to);
 #endif
 #if defined(BRICKED) && BRICKED
     float whole_leave = leave;

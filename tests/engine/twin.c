@@ -3,9 +3,11 @@
  *
  *     twin SCENE WxH STEP PROGRAM VIEWPOINT,... < PAIRS
  *
- * PROGRAM is a name of `plugray dump`. A line of PAIRS is two files, vertex and fragment stage; "-"
- * is the stage that was composed. Their uniforms have the names that the composed ones have. Prints
- * a line a pair: "same", "differs" and of how many values, or "refused" and why. */
+ * PROGRAM is a name of `plugray dump`; its texts are written to composed.vert and composed.frag. A
+ * line of PAIRS is two files, vertex and fragment stage; "-" is the stage that was composed. Their
+ * uniforms have the names that the composed ones have. Prints a line a pair: "same", "differs" and
+ * of how many values, or "refused" and why. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -113,17 +115,20 @@ static GLuint compile(const comparison *c, const plr_built *built,
     return name;
 }
 
-/* How many values are not the same bits. */
-static size_t count_different(const plr_picture *a, const plr_picture *b) {
+/* How many values are not the same bits, and how far they are from each other. */
+static size_t count_different(const plr_picture *a, const plr_picture *b, double *worst) {
     size_t different = 0;
-    for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * 4; i++)
+    for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * 4; i++) {
         different += memcmp(&a->pixels[i], &b->pixels[i], sizeof(float)) != 0;
+        *worst = fmax(*worst, fabs((double)a->pixels[i] - (double)b->pixels[i]));
+    }
     return different;
 }
 
 static bool compare(const comparison *c, const char *const paths[PLR_STAGE_COUNT]) {
     GLuint name = compile(c, c->built[0], paths);
     size_t different = 0;
+    double worst = 0;
     if (!name)
         return true;
     for (size_t i = 0; i < c->count; i++) {
@@ -131,11 +136,11 @@ static bool compare(const comparison *c, const char *const paths[PLR_STAGE_COUNT
         replace(c->views[i], c->built[i], name);
         if (!plr_view_draw(c->views[i], &c->size, &picture, c->diags))
             return false;
-        different += count_different(&c->pictures[i], &picture);
+        different += count_different(&c->pictures[i], &picture, &worst);
         plr_picture_free(&picture);
     }
     if (different)
-        printf("differs %zu\n", different);
+        printf("differs %zu, by %g\n", different, worst);
     else
         printf("same\n");
     return true;
@@ -158,6 +163,21 @@ static bool same_text(const plr_built *a, const plr_built *b) {
                   plr_program_text(b->info.program, PLR_FRAGMENT, NULL)) == 0;
 }
 
+static bool write_texts(const plr_program *program) {
+    static const struct {
+        plr_stage stage;
+        const char *path;
+    } stages[] = {{PLR_VERTEX, "composed.vert"}, {PLR_FRAGMENT, "composed.frag"}};
+    bool fine = true;
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
+        FILE *file = fopen(stages[i].path, "wb");
+        const char *text = plr_program_text(program, stages[i].stage, NULL);
+        fine = fine && file && text && fputs(text, file) >= 0;
+        fine = file && fclose(file) == 0 && fine;
+    }
+    return fine;
+}
+
 /* A picture that shows next to nothing would compare nothing. */
 static size_t count_values(const plr_picture *picture) {
     size_t changes = 0;
@@ -175,6 +195,7 @@ static bool add_view(comparison *c, plr_scene *scene, const char *viewpoint, dou
     c->views[c->count++] = view;
     c->built[i] = find_built(view, c->program);
     bool fine = c->built[i] && same_text(c->built[i], c->built[0]) &&
+                write_texts(c->built[i]->info.program) &&
                 plr_view_draw(view, &c->size, &c->pictures[i], c->diags);
     if (fine)
         printf("drawn %zu\n", count_values(&c->pictures[i]));

@@ -12,11 +12,11 @@ NavigationInfo { headlight FALSE }
 class Twin:
     """`vert`, `frag`: files in twins/ without their endings; `program`: of `plugray dump`."""
 
-    def __init__(self, name, title, *parts, vert=None, frag=None, program="surface-1", step=0.5, files=None):
+    def __init__(self, name, title, *parts, vert=None, frag=None, program="surface-1", step=0.5):
         self.name, self.title = name, title
         self.scene = scene(VIEWS, *parts)
         self.vert, self.frag = vert or name, frag or name
-        self.program, self.step, self.files = program, step, files or {}
+        self.program, self.step = program, step
 
 
 # one is zero, one looks away
@@ -42,6 +42,27 @@ FOG = "Transform { scale 1 2 1 children Fog { color .7 .8 .9 visibilityRange 3.1
 # far away, in the middle and out of sight
 BEHIND = ("Transform { translation -.9 0 -2 children %s }\nTransform { translation .9 .1 1 children %s }\n")
 
+# two viewpoints of volumes: the second one looks along two faces of the box, exactly
+VOLUME_VIEWS = """DEF front Viewpoint { position .3 .5 2.3 orientation 1 -.5 0 -.2 }
+DEF flat OrthoViewpoint { position 0 0 3 fieldOfView -1 -1 1 1 }
+NavigationInfo { headlight FALSE }
+"""
+DATA = "PixelTexture3D { image [ 1 3 3 3 " + " ".join(str(i * i * 37 % 256) for i in range(27)) + " ] }"
+
+PAIRS = "PixelTexture3D { image [ 2 3 3 3 " + " ".join(str(i * i * 2311 % 65536) for i in range(27)) + " ] }"
+
+
+def body(style="", fields="", data=DATA):
+    style = f"renderStyle {style}" if style else ""
+    return f"VolumeData {{ dimensions .8125 .8125 1.3 voxels {data} {style} {fields} }}\n"
+
+
+class VolumeTwin(Twin):
+    def __init__(self, name, title, *parts, step=0.2):
+        super().__init__(name, title, vert="volume", program="volume-1", step=step)
+        self.scene = scene(VOLUME_VIEWS, *parts)
+
+
 TWINS = [
     Twin("unlit", "a colour that no light changes",
          sheet(material="UnlitMaterial { emissiveColor .2 .4 .7 }")),
@@ -66,4 +87,13 @@ TWINS = [
              "uniform vec3 tint;\nvoid PLUG_fragment_modify(inout vec4 fragment_color)\n"
              "{ fragment_color.rgb = mix(fragment_color.rgb, tint, fragment_color.g); }",
              "inputOutput SFColor tint .2 .9 .4")), vert="phong"),
+    VolumeTwin("ramp", "a volume in the default ramp", body()),
+    VolumeTwin("map", "an opacity map of two components", body(
+        "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 2 4 0x20408010 0xC0602080 0x30FF5040 0xFFE0C0FF } }",
+        data=PAIRS)),
+    VolumeTwin("boundary", "boundaries that are enhanced", body(
+        "BoundaryEnhancementVolumeStyle { retainedOpacity .3 boundaryOpacity .8 opacityFactor 1.4 }")),
+    VolumeTwin("shaded", "a volume in the light of one light", SUN, body(
+        "ShadedVolumeStyle { lighting TRUE material %s }" % PHONG)),
+    VolumeTwin("clipped", "a volume behind a clip plane", "ClipPlane { plane .5 .3 -1 .2 }\n", body()),
 ]
