@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/bind_internal.h"
+#include "engine/brightness.h"
 #include "engine/light_values.h"
 #include "engine/projector.h"
 #include "engine/transfer_atlas.h"
@@ -79,8 +80,10 @@ static void v_time(const plr_known_context *c, float *out) {
 /* A ray ends where what is left is below an eighth of the error that is asked for; if none is, of
  * an 8-bit step. */
 static void v_transparency_left(const plr_known_context *c, float *out) {
+    const double least = 1.0 / (1 << 25); /* 1 - alpha of floats is 0, or more than that */
     double error = c->values->view->desc.error;
-    out[0] = (float)((error > 0 ? error : 1.0 / 255) / 8);
+    double left = (error > 0 ? error : 1.0 / 255) / 8 / plr_view_brightest(c->values->view);
+    out[0] = (float)fmax(left, least);
 }
 static void v_node_to_eye(const plr_known_context *c, float *out) {
     plr_matrix m = c->binding->to_world;
