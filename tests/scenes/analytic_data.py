@@ -375,13 +375,13 @@ def has_backend(suite, name):
     return suite.backends[name]
 
 
-def check_backends(sheet, step):
-    """Both give the same bits, by every method."""
+def check_backends(sheet, step, methods=None):
+    """Both give the same bits, by every method (or these)."""
     suite = sheet.suite
     for name in ("egl", "osmesa"):
         if not has_backend(suite, name):
             return suite.skip("alike to the bit", f"no {name} here")
-    for method in offered(suite):
+    for method in methods or offered(suite):
         # where there is EGL it is what draws without being asked
         pairs = zip(sheet.cases, sheet.pictures(method, step), sheet.pictures(method, step, "osmesa"))
         for case, one, other in pairs:
