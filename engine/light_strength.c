@@ -22,8 +22,6 @@ enum {
     PLAIN_FACTOR = 2
 };
 
-static const double wanted_error = 1.0 / 255; /* where nobody says */
-
 static double magnitude(const plr_node *node, const char *field) {
     return plr_node_field(node, field) ? fabs(plr_node_number(node, field)) : 0;
 }
@@ -148,6 +146,10 @@ static plr_light_use use_of(plr_view *view, const plr_recipe *recipe, size_t att
 
 /* ---- Answers ---- */
 
+static double wanted_error(const plr_view *view) {
+    return view->desc.error > 0 ? view->desc.error : 1.0 / 255;
+}
+
 static bool is_weak(const plr_light_answer *answer) {
     const plr_node *node = answer->light->node;
     if (!is_known(node) || has_effects(node))
@@ -178,7 +180,7 @@ bool plr_light_is_weak(plr_view *view, const plr_recipe *recipe, const plr_light
     if (!light->node || use == PLR_LIGHT_COUNTS)
         return false;
     double lights = (double)(view->flat.all_lights.count + 1);
-    plr_light_answer answer = {light, state, use, wanted_error / 4 / lights, false};
+    plr_light_answer answer = {light, state, use, wanted_error(view) / 4 / lights, false};
     answer.weak = is_weak(&answer);
     note(view, answer);
     return answer.weak;

@@ -116,6 +116,16 @@ def sums():
 
 
 @suite.case
+def errors():
+    "what is too weak depends on the error that is asked for"
+    dim = "DirectionalLight { intensity .002 }\n"
+    def count(*options):
+        stats = load_json(suite.render(front_scene(dim, SUN, SURFACE), "--stats", "json", *options).output)
+        return stats["programs"][0]["instructions"]
+    suite.check("", count("--error", ".1") < count() == count("--error", "1/255"))
+
+
+@suite.case
 def lights_that_matter_otherwise():
     "weak lights stay where their strength does not say what they do"
     dim = "DirectionalLight { intensity .0001 }\n"
