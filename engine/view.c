@@ -332,7 +332,7 @@ void plr_view_get_stats(const plr_view *view, plr_view_stats *stats) {
 /* What says most about a picture: the plan that promises least. */
 void plr_view_get_plan(const plr_view *view, plr_plan *plan) {
     const plr_volume_pass *pass = &view->volumes;
-    *plan = (plr_plan){.why = "there are no volumes"};
+    *plan = (plr_plan){.value = -1, .why = "there are no volumes"};
     for (size_t i = 0; i < pass->cast_count; i++) {
         const plr_plan *one = &pass->casts[i].plan;
         bool worse = (plan->bounded && !one->bounded) ||
