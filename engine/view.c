@@ -335,8 +335,9 @@ void plr_view_get_plan(const plr_view *view, plr_plan *plan) {
     *plan = (plr_plan){.value = -1, .why = "there are no volumes"};
     for (size_t i = 0; i < pass->cast_count; i++) {
         const plr_plan *one = &pass->casts[i].plan;
-        bool worse = (plan->bounded && !one->bounded) ||
-                     (plan->bounded == one->bounded && (one->value < 0 || one->value > plan->value));
+        bool worse =
+            (plan->bounded && !one->bounded) ||
+            (plan->bounded == one->bounded && (one->value < 0 || one->value > plan->value));
         if (i == 0 || worse)
             *plan = *one;
     }
