@@ -17,7 +17,9 @@ typedef enum plr_building {
 /* `make_current` as in plr_engine_desc, or NULL. NULL without memory. */
 plr_builder *plr_builder_create(const plr_gl *gl, bool (*make_current)(void *user, bool current),
                                 void *user);
-/* Ends the thread after the program that is at work. Needs GL. */
+/* Ends the thread after the program that is at work. Programs that it has drawn must not have been
+ * deleted yet: Mesa finds what its context has of them by their names, and else leaves it to the
+ * other contexts, who then reach for a context that is gone. Needs GL. */
 void plr_builder_destroy(plr_builder **builder);
 /* What has become of these texts (texts[stage] may be NULL), which are copied; asks for them where
  * that is new. The program of those that are done is the caller's, who is told of it once. */

@@ -25,7 +25,7 @@ plr_engine *plr_engine_create(const plr_engine_desc *desc, plr_diags *diags) {
 void plr_engine_destroy(plr_engine **engine) {
     if (!*engine)
         return;
-    plr_builder_destroy(&(*engine)->builder);
+    plr_builder_destroy(&(*engine)->builder); /* before the programs are */
     plr_cache_destroy(&(*engine)->cache);
     plr_catalog_destroy(&(*engine)->catalog);
     free(*engine);

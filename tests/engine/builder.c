@@ -30,7 +30,7 @@ static bool draws(const plr_gl *gl, GLuint program) {
     return read && triangle_is(pixels, color);
 }
 
-static void test_building(const plr_gl *gl, plr_builder *builder) {
+static void test_building(const plr_gl *gl, plr_builder *builder, plr_cache *cache) {
     GLuint program = 0, none = 7;
     CHECK(plr_builder_ask(builder, good, &program) == PLR_BUILDING_WAITS);
     for (int i = 0; i < 2; i++) /* asked again, it is the same */
@@ -45,12 +45,10 @@ static void test_building(const plr_gl *gl, plr_builder *builder) {
     /* the caller has it now: the same texts are built anew */
     GLuint other = 0;
     CHECK(plr_builder_ask(builder, good, &other) == PLR_BUILDING_WAITS);
-    plr_cache *cache = plr_cache_create(gl, NULL);
     CHECK(plr_cache_find(cache, good) == 0);
     CHECK(plr_cache_adopt(cache, good, program) == program);
     CHECK(plr_cache_find(cache, good) == program);
     CHECK_INT(plr_cache_get_stats(cache).compiled, 0);
-    plr_cache_destroy(&cache);
 }
 
 static void run(plr_context *context, sharing share) {
@@ -58,9 +56,11 @@ static void run(plr_context *context, sharing share) {
     CHECK(plr_gl_load(&gl, plr_context_get_proc_address, context) == NULL);
     plr_builder *builder = plr_builder_create(&gl, share, context);
     CHECK(builder != NULL);
+    plr_cache *cache = plr_cache_create(&gl, NULL);
     if (builder)
-        test_building(&gl, builder);
-    plr_builder_destroy(&builder);
+        test_building(&gl, builder, cache);
+    plr_builder_destroy(&builder); /* first: see there */
+    plr_cache_destroy(&cache);
     CHECK(gl.GetError() == GL_NO_ERROR);
 }
 
