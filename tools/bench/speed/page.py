@@ -103,18 +103,18 @@ def write_csv(results, path):
                                  chosen(p), len(p.cpu)))
 
 
-def write(bench, command, results, rows, series, folder):
+def write(bench, command, found, folder):
     """The page, the table and the charts, into a folder as docs/ is one."""
     beside = os.path.join(folder, "speed-accuracy")
     os.makedirs(beside, exist_ok=True)
-    write_csv(results, os.path.join(beside, "points.csv"))
+    write_csv(found.results, os.path.join(beside, "points.csv"))
     text = HEAD.format(command=command, rounds=bench.rounds, time=bench.time, machine=machine(bench))
-    text += "\n## What must be reached\n\n" + summary(rows) + "\n" + rows_text(rows)
-    if series and charts.available():
-        charts.scaling_chart(series, os.path.join(beside, "scaling.svg"))
+    text += "\n## What must be reached\n\n" + summary(found.rows) + "\n" + rows_text(found.rows)
+    if found.series and charts.available():
+        charts.scaling_chart(found.series, os.path.join(beside, "scaling.svg"))
         text += "\n![CPU time as scenes grow](speed-accuracy/scaling.svg)\n"
     text += "\n## Charts\n"
-    for setting, points in results.items():
+    for setting, points in found.results.items():
         text += f"\n### {setting.name}, {setting.size} x {setting.size} pixels\n\n"
         if setting.title:
             text += f"{setting.title[0].upper()}{setting.title[1:]}.\n\n"

@@ -66,6 +66,8 @@ BARS = {("ml64", False): (10, 8), ("ml128", False): (20, 16), ("ct256", False): 
 def race(bench, setting, points, theirs, bar, least, part, what, progress):
     """VTK's point against the cheapest setting of plugray that is as good, drawn in turns."""
     rival = measure.seek(bench, setting, bench.methods, ours(points), theirs.error.rmse)
+    if rival is None and not ours(points):
+        return Row(part, what, None, bar, least, detail="nothing was drawn")
     if rival is None:
         best = min(ours(points), key=lambda p: p.error.rmse)
         return Row(part, what, 0, bar, least, detail=f"no setting comes to RMSE {theirs.error.rmse:.2e}; "
@@ -122,7 +124,7 @@ def fronts(results):
     for setting, points in results.items():
         mine = ours(points)
         ahead, worst, where = 0, 0, ""
-        rivals = [p for p in points if p.method.who != "plugray"]
+        rivals = [p for p in points if p.method.who != "plugray"] if mine else []
         for rival in rivals:
             needed = measure.front_time(mine, rival.error.rmse)
             slack = math.hypot(rival.slack, max(p.slack for p in measure.front(mine)))
