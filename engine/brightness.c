@@ -52,7 +52,7 @@ static double of_light(const plr_node *light) {
 }
 
 static double of_effect(const plr_effect *effect, const plr_binding *binding) {
-    if (effect->disabled)
+    if (effect->disabled || binding->closed)
         return 0;
     for (size_t i = 0; effect->builtin && effect->name && i < sizeof additions / sizeof *additions;
          i++)
