@@ -7,8 +7,8 @@ import sys
 
 from . import data, engines, scenes
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3, "tests",
-                                "reference"))
+SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3, "tests", "reference")
+sys.path.insert(0, SOURCES)
 import reference  # noqa: E402, it lies beside the program that it starts
 
 
@@ -51,8 +51,9 @@ def key(setting, folder):
     for text in (setting.scene, str(setting.size), data.digest(setting.volume, folder),
                  str(texels(setting.volume))):
         digest.update(text.encode())
-    with open(reference.program, "rb") as file:
-        digest.update(file.read())
+    for name in sorted(name for name in os.listdir(SOURCES) if name.endswith((".c", ".h"))):
+        with open(os.path.join(SOURCES, name), "rb") as file:
+            digest.update(file.read())
     return digest.hexdigest()[:16]
 
 
