@@ -84,6 +84,8 @@ static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
         size_t offset;
     } textures[] = {{"labels", offsetof(plr_volume_state, labels)},
                     {"integrals", offsetof(plr_volume_state, integrals)},
+                    {"sums", offsetof(plr_volume_state, sums)},
+                    {"ranges", offsetof(plr_volume_state, ranges)},
                     {"leaps", offsetof(plr_volume_state, leaps)}};
     slot->source = SLOT_VOLUME_TEXTURE;
     for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
@@ -317,7 +319,7 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
         if (slot->type->shape == SHAPE_INT)
             gl->Uniform1i(slot->location, (GLint)numbers[0]);
         else
-            set_floats(gl, slot, 1, numbers, false);
+            set_floats(gl, slot, slot->array ? (GLsizei)slot->array : 1, numbers, false);
         return;
     case SLOT_LIGHT:
         plr_light_value_get(slot->light_value, slot->binding, &values->frame->view, numbers);

@@ -75,12 +75,14 @@ typedef struct plr_volume_state {
     size_t surface_count;
     float (*maps)[4]; /* of segments that have a transfer function and no more; or NULL */
     size_t map_count;
-    uint64_t hash; /* of the voxels */
+    uint64_t hash;                   /* of the voxels */
     const struct plr_blocks *blocks; /* of voxels of one component; or NULL */
     /* Of a volume that one transfer function alone makes visible, and how far it is from each block
      * to the next where it makes anything visible; or NULL. */
     struct plr_table *table;
     plr_texture *integrals; /* of the table */
+    plr_texture *sums;      /* the same from 0 on */
+    plr_texture *ranges;    /* bounds of it */
     float seen[2];          /* outside of this open interval the table has nothing */
     plr_texture *leaps;
 } plr_volume_state;
@@ -101,6 +103,7 @@ typedef struct plr_values {
     const plr_volume_state *volumes;
     size_t volume_count;
     plr_texture *functions; /* the transfer functions of the volumes, in one texture */
+    double error;           /* of the integral along a ray */
     const plr_hull *hull;   /* of rays through volumes; or NULL */
 } plr_values;
 

@@ -7,6 +7,7 @@
 #include "engine/light_values.h"
 #include "engine/projector.h"
 #include "engine/transfer_atlas.h"
+#include "engine/volume_table.h"
 
 static plr_matrix model_view(const plr_known_context *c) {
     return plr_matrix_multiply(&c->values->frame->view, &c->values->to_world);
@@ -84,6 +85,9 @@ static void v_transparency_left(const plr_known_context *c, float *out) {
     double error = c->values->view->desc.error;
     double left = (error > 0 ? error : 1.0 / 255) / 8 / plr_view_brightest(c->values->view);
     out[0] = (float)fmax(left, least);
+}
+static void v_error_allowed(const plr_known_context *c, float *out) {
+    out[0] = (float)c->values->error;
 }
 static void v_node_to_eye(const plr_known_context *c, float *out) {
     plr_matrix m = c->binding->to_world;
@@ -176,6 +180,12 @@ static void v_transfer_place(const plr_known_context *c, float *out) {
 static void v_visible_values(const plr_known_context *c, float *out) {
     memcpy(out, c->binding->function->visible, sizeof c->binding->function->visible);
 }
+static void v_wall_values(const plr_known_context *c, float *out) {
+    memcpy(out, c->volume->table->wall, sizeof c->volume->table->wall);
+}
+static void v_wall_colors(const plr_known_context *c, float *out) {
+    memcpy(out, c->volume->table->wall_colors, sizeof c->volume->table->wall_colors);
+}
 static void v_seen_values(const plr_known_context *c, float *out) {
     memcpy(out, c->volume->seen, sizeof c->volume->seen);
 }
@@ -266,6 +276,7 @@ static const plr_known known[] = {
     {"emptyDepth", OWNER_HOST, v_empty_depth},
     {"hasPartStart", OWNER_HOST, v_has_part_start},
     {"transparencyLeft", OWNER_HOST, v_transparency_left},
+    {"errorAllowed", OWNER_HOST, v_error_allowed},
     {"nodeToEye", OWNER_NODE, v_node_to_eye},
     {"eyeToProjector", OWNER_NODE, v_eye_to_projector},
     {"eyeToNode", OWNER_NODE, v_eye_to_node},
@@ -289,6 +300,8 @@ static const plr_known known[] = {
     {"choiceNumber", OWNER_VOLUME, v_choice_number},
     {"segmentMapCount", OWNER_VOLUME, v_map_count},
     {"transferPlace", OWNER_FUNCTION, v_transfer_place},
+    {"wallValues", OWNER_VOLUME, v_wall_values},
+    {"wallColors", OWNER_VOLUME, v_wall_colors},
     {"seenValues", OWNER_VOLUME, v_seen_values},
     {"visibleValues", OWNER_FUNCTION, v_visible_values},
     {"voxelLength", OWNER_VOLUME, v_voxel_length},

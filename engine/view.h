@@ -40,6 +40,7 @@ typedef struct plr_cast {
     bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
     struct plr_cast *picking; /* the same that picks; NULL: not asked for yet */
     plr_plan plan;            /* how rays are integrated */
+    double allowed;           /* error of the integral along a ray, of PLR_METHOD_CELLS */
 } plr_cast;
 
 /* Voxels that outlive a change of the scene. */

@@ -62,6 +62,7 @@ static void run_once(void *user) {
     plr_hull hull;
     plr_volume_hull(pass->volumes, cast->members, cast->count, frame, &hull);
     plr_values values = {.hull = &hull,
+                         .error = cast->allowed,
                          .frame = frame,
                          .view = view,
                          .to_world = pass->volumes[cast->members[0]].to_world,

@@ -62,8 +62,8 @@ static plr_table *make_table(plr_view *view, const plr_atlas_place *place) {
     plr_image_convert(image, 4, PLR_FLOAT32, texels);
     if (image->width == 1)
         memcpy(texels + 4, texels, 4 * sizeof *texels);
-    plr_table *table = plr_table_make(&view->textures, &view->arena, texels,
-                                      image->width > 1 ? image->width : 2);
+    plr_table *table =
+        plr_table_make(&view->textures, &view->arena, texels, image->width > 1 ? image->width : 2);
     free(texels);
     return table;
 }
@@ -85,8 +85,8 @@ static plr_texture *make_leaps(plr_view *view, const plr_volume_state *state) {
         longjmp(*view->arena.out_of_memory, 1);
     }
     for (size_t i = 0; i < count; i++)
-        full[i] = plr_table_sees(state->table, (double)blocks->range[i][0],
-                                 (double)blocks->range[i][1]);
+        full[i] =
+            plr_table_sees(state->table, (double)blocks->range[i][0], (double)blocks->range[i][1]);
     plr_blocks_distances(blocks, full, image.samples);
     free(full);
     return plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D_LABELS, false);
@@ -103,8 +103,13 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_atlas_place *place = plr_style_place(view, search.map, state->grid);
     if (!place)
         return false;
-    state->table = make_table(view, place);
+    plr_table *table = make_table(view, place);
+    if (table->walls > 1)
+        return false;
+    state->table = table;
     state->integrals = state->table->texture;
+    state->sums = state->table->sums;
+    state->ranges = state->table->ranges;
     plr_table_seen(state->table, state->seen);
     state->leaps = make_leaps(view, state);
     return true;
@@ -112,25 +117,52 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
 
 /* ---- Plans ---- */
 
+static bool has_tables(plr_view *view, const plr_cast *cast) {
+    bool tabled = view->engine != NULL;
+    for (size_t i = 0; tabled && i < cast->count; i++) {
+        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        tabled = state->table || find_table(view, state);
+    }
+    return tabled;
+}
+
+/* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
+#define LEAST_ERROR (1.0 / 4096)
+
 void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
-    cast->plan = (plr_plan){.asked = desc->step > 0 ? 0 : desc->error > 0 ? desc->error : 1.0 / 255,
-                            .value = -1,
-                            .method = PLR_METHOD_MIDPOINT,
-                            .step = desc->step > 0 ? desc->step : 0.5,
-                            .why = ""};
-    if (desc->method == PLR_METHOD_AUTO || desc->method == PLR_METHOD_MIDPOINT || !view->engine)
+    plr_plan *plan = &cast->plan;
+    bool fixed = desc->step > 0;
+    *plan = (plr_plan){.asked = fixed             ? 0
+                                : desc->error > 0 ? desc->error
+                                                  : 1.0 / 255,
+                       .value = -1,
+                       .method = PLR_METHOD_MIDPOINT,
+                       .step = fixed ? desc->step : 0.5,
+                       .why = "the steps were asked for"};
+    plr_method wanted = desc->method != PLR_METHOD_AUTO ? desc->method
+                        : fixed                         ? PLR_METHOD_MIDPOINT
+                                                        : PLR_METHOD_CELLS;
+    if (wanted != PLR_METHOD_MIDPOINT && !has_tables(view, cast)) {
+        plan->why =
+            "samples in the middle of half a voxel's steps: a volume is not made visible by one "
+            "transfer function of one component alone, so no bound is known";
         return;
-    bool tabled = true;
-    for (size_t i = 0; i < cast->count; i++) {
-        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
-        tabled = (state->table || find_table(view, state)) && tabled;
     }
-    (void)early_end;
-    if (!tabled) {
-        cast->plan.why = "some volume is made visible by more than one transfer function";
+    plan->method = wanted;
+    if (wanted == PLR_METHOD_MIDPOINT)
         return;
-    }
-    cast->plan.method = desc->method;
-    cast->plan.leaps = !desc->no_leaping;
+    plan->leaps = !desc->no_leaping;
+    if (wanted != PLR_METHOD_CELLS)
+        return;
+    double error = plan->asked > 0 ? plan->asked : 1.0 / 255;
+    plan->value = fmax(error, LEAST_ERROR);
+    plan->bounded = early_end;
+    plan->step = sqrt(3);
+    cast->allowed = 0.75 * plan->value;
+    plan->why =
+        early_end
+            ? "in each cell of voxels the value is a cubic along the ray; it is cut until what "
+              "extinction and colour can differ from their integrals keeps the error"
+            : "an effect of an author decides how colours accumulate: the error is estimated";
 }

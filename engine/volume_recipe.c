@@ -7,8 +7,14 @@
 
 #include "engine/general.h"
 #include "engine/shadows.h"
+#include "engine/volume_table.h"
 
 /* ---- One volume ---- */
+
+static bool is_segmented(const plr_cast *cast) {
+    return !cast->picks &&
+           (cast->plan.method == PLR_METHOD_PREINTEGRATED || cast->plan.method == PLR_METHOD_CELLS);
+}
 
 /* The units of a volume's own effect, by what it does along the ray. */
 static const char *const volume_units[] = {
@@ -17,19 +23,24 @@ static const char *const volume_units[] = {
         "volume/Volume volume/grid volume/levels volume/crossings volume/surfaces",
     [PLR_VOLUME_PROJECTED] = "volume/Volume volume/grid volume/projection"};
 
+/* The same of volumes with a table. */
+static const char *const segment_units[] = {
+    "volume/Volume volume/grid volume/table volume/segments",
+    "volume/Volume volume/grid volume/table volume/cells"};
+
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
-                                bool segments) {
+                                bool segments, bool cells) {
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
         {"HAS_LABELS", state->labels ? "1" : "0"},
         {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
+        {"HAS_WALL", segments && state->table->walls > 0 ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
-    const char *units =
-        segments ? "volume/Volume volume/grid volume/segments" : volume_units[state->kind];
+    const char *units = segments ? segment_units[cells] : volume_units[state->kind];
     return plr_recipe_builtin(&view->kitchen, recipe, units, plr_node_type(state->node),
                               (plr_binding){.node = state->node,
                                             .to_world = state->to_world,
@@ -87,11 +98,13 @@ static void add_fog(plr_view *view, plr_recipe *recipe, const plr_leaf *leaf, si
                            attached, defines, sizeof defines / sizeof *defines);
 }
 
-static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, bool segments,
+static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const plr_cast *cast,
                        size_t *attached, plr_diags *diags) {
+    bool segments = is_segmented(cast);
     const plr_volume_state *state = &view->volumes.volumes[index];
     const plr_leaf *leaf = view->volumes.leaves[index];
-    *attached = add_volume_effect(view, recipe, state, segments);
+    *attached =
+        add_volume_effect(view, recipe, state, segments, cast->plan.method == PLR_METHOD_CELLS);
     plr_volume_add_planes(view, recipe, index, *attached);
     plr_general_hide(view, recipe, state->hidden, index, *attached);
     if (segments)
@@ -163,9 +176,12 @@ static bool any_writes_depth(const plr_view *view, const plr_cast *cast) {
     return false;
 }
 
-static bool is_segmented(const plr_cast *cast) {
-    return !cast->picks && (cast->plan.method == PLR_METHOD_PREINTEGRATED ||
-                            cast->plan.method == PLR_METHOD_CELLS);
+/* Whether some values are opaque. */
+static bool has_wall(const plr_view *view, const plr_cast *cast) {
+    bool any = false;
+    for (size_t i = 0; i < cast->count; i++)
+        any = any || view->volumes.volumes[cast->members[i]].table->walls > 0;
+    return any;
 }
 
 static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
@@ -180,6 +196,7 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         {"SEGMENTS", is_segmented(cast)},
         {"CELLS", cast->plan.method == PLR_METHOD_CELLS},
         {"LEAPS", cast->plan.leaps},
+        {"HAS_WALL", is_segmented(cast) && has_wall(view, cast)},
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
         {"HAS_EVENTS", events},
         {"HAS_STEPS", has_kind(view, cast, false)},
@@ -211,7 +228,7 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     define_loop(view, cast, early_end);
     size_t *attached = PLR_NEW_ARRAY(&view->arena, cast->count, size_t);
     for (size_t i = 0; i < cast->count; i++)
-        add_volume(view, recipe, cast->members[i], is_segmented(cast), &attached[i], diags);
+        add_volume(view, recipe, cast->members[i], cast, &attached[i], diags);
     bool skips_clear = true;
     for (size_t i = 0; i < cast->count; i++)
         skips_clear = skips_clear && plr_volume_skips_clear(view, cast->members[i]);

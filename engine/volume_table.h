@@ -7,13 +7,20 @@
 #include "engine/texture.h"
 
 typedef struct plr_table {
-    uint32_t nodes;    /* values, evenly from 0 to 1, on which the texels of the function lie */
-    double *depth;     /* at each node: extinction integrated from 0 on, per reference length */
+    uint32_t nodes;     /* values, evenly from 0 to 1, on which the texels of the function lie */
+    double *depth;      /* at each node: extinction integrated from 0 on, per reference length */
     double (*color)[3]; /* the same times colour */
-    uint32_t *visible; /* of how many of the spans before a node anything can be seen */
-    bool opaque;       /* some texel is */
+    uint32_t *visible;  /* of how many of the spans before a node anything can be seen */
+    int walls;          /* ranges of values that are opaque */
+    float wall[2];      /* from the least to the greatest of these */
+    float wall_colors[2][4];
     plr_texture *texture; /* x: the one value, y: the other; mean colour * extinction, extinction */
+    plr_texture *sums;    /* three rows: integrals up to nodes, see cells.glsl */
+    plr_texture *ranges;  /* x: the least value, y: the greatest; see cells.glsl */
 } plr_table;
+
+/* Values are told apart that finely in `ranges`; the same in GLSL. */
+#define PLR_TABLE_RANGES 64
 
 /* Optical depths per reference length are not greater: nothing shines through. */
 #define PLR_MOST_DEPTH 1e4

@@ -33,7 +33,10 @@ out vec4 plugray_FragColor;
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
 
-#if SEGMENTS
+#if CELLS
+uniform float errorAllowed; /* of the integral along a ray */
+const float MOST_PARTS = 256.0; /* of a piece in one cell */
+#elif SEGMENTS
 const int CHUNK = 8; /* segments that are looked at together; the same in segments.glsl */
 #endif
 
@@ -216,6 +219,9 @@ void main() {
     /* From one entry or exit to the next the ray is cut into segments; between their ends volumes know
      * what lies there. */
     bool ended = false;
+#if CELLS
+    float purse = 0.5 * errorAllowed;
+#endif
 #if MIXES
     /* PLUG: volume_first (t) */
     while (t < NOWHERE && !ended) {
@@ -226,6 +232,66 @@ void main() {
 #if MIXES
         if (t_next >= NOWHERE)
             break;
+#endif
+#if CELLS
+        /* Of the error that the ray may have, a part is for each length alike; the rest is a purse for
+         * places that need more. */
+        float rate = 0.5 * errorAllowed / max(t_next - t, 1.0e-30);
+        float from = t;
+        /* PLUG: volume_cells_begin (from) */
+        while (from < t_next && !ended) {
+            float to = t_next;
+            /* PLUG: volume_cell (from, to) */
+            vec3 need = vec3(0.0);
+            float least = 1.0, most = 1.0;
+            /* PLUG: volume_cell_fit (from, to, need, least, most) */
+            float through = 1.0 - accumulated.a;
+            float order = 0.5 * through * need.y * min(need.y, 2.0) * need.z;
+            float square = through * need.x + order;
+            float share = rate * (to - from), allowed = share + 0.125 * max(purse, 0.0);
+            float parts = ceil(sqrt(square / allowed));
+            most = max(most, ceil(sqrt(order / allowed)));
+            parts = need.y > 0.0 ? min(max(min(parts, most), least), MOST_PARTS) : 0.0;
+            if (parts > 0.0)
+                purse -= max(square / (parts * parts) - share, 0.0);
+            float span = (to - from) / max(parts, 1.0);
+            for (float k = 0.0; k < parts; k += 1.0) {
+                VolumeMix mixed = VolumeMix(vec4(0.0), false);
+                float u = (k + 1.0) / parts;
+                float begin = from + k * span;
+                vec4 wall = vec4(0.0);
+                /* PLUG: volume_cell_part (mixed, wall, from, u, parts, span) */
+                VolumeSample s;
+                vec4 color = volume_mix_color(mixed);
+#if READS(position_eye)
+                s.position_eye = origin_eye + (begin + 0.5 * span) * direction_eye;
+#endif
+#if READS(step_length)
+                s.step_length = span;
+#endif
+#if READS(volume)
+                s.volume = -1;
+#endif
+                /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+                if (depth >= NOWHERE && accumulated.a > 0.0)
+                    depth = begin + 0.5 * span;
+#endif
+#if HAS_WALL
+                color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));
+                /* PLUG: volume_composite (accumulated, color, s) */
+#endif
+#if WRITES_DEPTH
+                note_end(accumulated.a, begin + span);
+#endif
+            }
+#if EARLY_END
+            ended = is_ended(accumulated.a);
+#endif
+            from = to;
+        }
+#else
+#if MIXES
         int steps = step_length < NOWHERE ? max(step_count(t_next - t, step_length), 1) : 1;
 #else
         int steps = step_count(t_next - t, step_length);
@@ -246,12 +312,14 @@ void main() {
             int first = i;
             uint visible = 0u;
             float from = t + float(i) * step_length;
-            /* PLUG: volume_chunk_begin (from) */
+            /* PLUG: volume_chunk_begin (from, step_length) */
             for (int k = 0; k < CHUNK; k++) {
                 float to = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
                 i++;
                 /* PLUG: volume_chunk (visible, k, to) */
             }
+            float beyond = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
+            /* PLUG: volume_chunk_end (beyond) */
             int left = steps - first;
             if (left < CHUNK)
                 visible &= (1u << uint(left)) - 1u;
@@ -301,6 +369,7 @@ void main() {
             }
 #endif
         }
+#endif
 #if MIXES
         t = t_next;
     }

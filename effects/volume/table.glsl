@@ -1,0 +1,76 @@
+/* A volume of one component that a transfer function alone makes visible: where the value
+ * runs evenly along the ray, a table has what lies between any two values (engine/volume_table.c). A unit of
+ * Volume.glsl's effect; segments.glsl or cells.glsl, another, cuts the ray.
+ *
+ * Pre-integration: Max, Hanrahan, Crawfis 1990; Engel, Kraus, Ertl 2001. The table has means, not
+ * products with a length, so that segments may be of any length. */
+
+uniform sampler2D integrals; /* mean of colour * extinction, and of extinction, per reference length */
+uniform usampler3D leaps;    /* blocks from here to the next in which anything can be seen */
+
+const float BLOCK_CELLS = 4.0; /* the same in C: PLR_BLOCK_CELLS */
+
+/* Along the ray in cells: cell c lies between the centres of voxels c - 1 and c. */
+vec3 cell_origin;
+vec3 cell_direction;
+vec3 cell_inverse;
+vec3 table_place; /* from values to texture coordinates of the table: scale, shift, and nothing */
+float depth_ratio; /* from lengths of the ray to reference lengths */
+
+float value_at(const in float t) {
+    return voxel_scalar(voxel_at(ray_origin + t * ray_direction));
+}
+
+void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
+    vec3 count = voxel_count();
+    cell_origin = ray_origin * count + 0.5;
+    cell_direction = ray_direction * count;
+    float nodes = float(textureSize(integrals, 0).x);
+    table_place = vec3((nodes - 1.0) / nodes, 0.5 / nodes, 0.0);
+    depth_ratio = ray_speed / referenceLength;
+    cell_inverse = 1.0 / mix(cell_direction, vec3(1.0e-30), equal(cell_direction, vec3(0.0)));
+}
+
+bool is_inside(const in float t) {
+#if MIXES
+    return enter <= t && t < leave;
+#else
+    return true;
+#endif
+}
+
+#if LEAPS
+/* How many blocks it is to the next in which anything can be seen, and the corner, in cells, of the cube of
+ * blocks around a place where nothing can, that a ray leaves by. */
+float leap_at(const in vec3 place, out vec3 corner) {
+    vec3 block = floor(place / BLOCK_CELLS);
+    ivec3 texel = clamp(ivec3(block), ivec3(0), textureSize(leaps, 0) - 1);
+    float blocks = float(texelFetch(leaps, texel, 0).r);
+    corner = BLOCK_CELLS *
+             (block + mix(vec3(1.0 - blocks), vec3(blocks), greaterThanEqual(cell_direction, vec3(0.0))));
+    return blocks;
+}
+#endif
+
+#if HAS_WALL
+uniform vec2 wallValues; /* values between these, they included, are opaque */
+uniform vec4 wallColors[2]; /* at these */
+
+/* Which part of the way between two values leads to the first opaque one: 2 if there is none. */
+float way_to_wall(const in float from, const in float to) {
+    if (from >= wallValues.x && from <= wallValues.y)
+        return 0.0;
+    if (from < wallValues.x ? to < wallValues.x : to > wallValues.y)
+        return 2.0;
+    return ((from < wallValues.x ? wallValues.x : wallValues.y) - from) / (to - from);
+}
+
+vec4 wall_color(const in float from) {
+    return from < 0.5 * (wallValues.x + wallValues.y) ? wallColors[0] : wallColors[1];
+}
+#endif
+
+/* What lies, in the mean, between two values: colour times extinction, extinction. */
+vec4 mean_between(const in float from, const in float to) {
+    return texture(integrals, vec2(from, to) * table_place.x + table_place.y);
+}
