@@ -29,6 +29,20 @@ static double steps_in(const plr_volume_state *state) {
     return sqrt(squared) / state->step;
 }
 
+/* Of the longest ray from surface to surface: from cell to cell, or, where an effect changes
+ * values, in steps. */
+static double cells_in(const plr_volume_state *state) {
+    double cells = CROSSINGS;
+    for (int axis = 0; axis < 3; axis++)
+        cells += state->grid->size[axis];
+    return cells;
+}
+
+static double turns_to_light(const plr_volume_state *state) {
+    double turns = steps_in(state) / 2 + SHADOW_TURNS;
+    return state->kind == PLR_VOLUME_SURFACES ? fmax(turns, cells_in(state)) : turns;
+}
+
 /* Each step asks all volumes of the cast that are there, those of volumes in one place together:
  * the larger of what comes out if all are in one place and if none are. Of a surface only crossings
  * are lit. */
@@ -38,6 +52,8 @@ static double turns(const plr_view *view, const plr_cast *cast) {
     for (size_t i = 0; i < cast->count; i++) {
         const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
         double steps = steps_in(state);
+        if (state->kind == PLR_VOLUME_SURFACES)
+            steps = fmax(steps, cells_in(state));
         whole += steps;
         longest = fmax(longest, steps);
         lit += state->kind == PLR_VOLUME_SURFACES ? CROSSINGS : steps;
@@ -46,7 +62,7 @@ static double turns(const plr_view *view, const plr_cast *cast) {
         const char *name = recipe->effects.items[i].name;
         size_t volume = recipe->bindings.items[i].volume;
         if (name && strcmp(name, "ShadowRay") == 0 && volume < view->volumes.count)
-            light += steps_in(&view->volumes.volumes[volume]) / 2 + SHADOW_TURNS;
+            light += turns_to_light(&view->volumes.volumes[volume]);
     }
     double together = longest * ((double)cast->count * (STEP_TURNS - 1) + 1);
     return fmax(whole * STEP_TURNS, together) + lit * light;
