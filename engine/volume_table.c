@@ -210,7 +210,7 @@ static double sample_functions(const float *texels, uint32_t count, double value
 static void add_node(bin *b, const plr_table *t, const float *texels, uint32_t count, uint32_t i) {
     double w = 1.0 / (t->nodes - 1), f[3][SLOPES], c[3][4], tau[3];
     for (int k = 0; k < 3; k++)
-        tau[k] = sample_functions(texels, count, (i + k - 1.0) * w, f[k], c[k]);
+        tau[k] = sample_functions(texels, count, ((double)i + k - 1) * w, f[k], c[k]);
     double most = fmax(tau[1], fmax(tau[0], tau[2]));
     for (int s = 0; s < SLOPES; s++) {
         widen(b->slopes[s], (f[1][s] - f[0][s]) / w);
