@@ -250,7 +250,7 @@ static void fill_ranges(const plr_table *t, const float *texels, uint32_t count,
         bin all = bins[i];
         for (int j = i; j < PLR_TABLE_RANGES; j++) {
             join(&all, &bins[j]);
-            float *at = out + 4 * (j * PLR_TABLE_RANGES + i);
+            float *at = out + (ptrdiff_t)4 * (j * PLR_TABLE_RANGES + i);
             double change = 0, slope = 0;
             for (int k = 0; k < 3 && all.extinction > 0; k++)
                 change = fmax(change, all.colors[k][1] - all.colors[k][0]);
