@@ -10,7 +10,10 @@ NavigationInfo { headlight FALSE }
 
 
 class Twin:
-    """`vert`, `frag`: files in twins/ without their endings; `program`: of `plugray dump`."""
+    """`vert`, `frag`: files in twins/ without their endings; `program`: of `plugray dump`; `spare`: how parts
+    begin that no picture here needs, but others."""
+
+    views, spare = "front,flat", ()
 
     def __init__(self, name, title, *parts, vert=None, frag=None, program="surface-1", step=0.5):
         self.name, self.title = name, title
@@ -42,25 +45,42 @@ FOG = "Transform { scale 1 2 1 children Fog { color .7 .8 .9 visibilityRange 3.1
 # far away, in the middle and out of sight
 BEHIND = ("Transform { translation -.9 0 -2 children %s }\nTransform { translation .9 .1 1 children %s }\n")
 
-# two viewpoints of volumes: the second one looks along two faces of the box, exactly
-VOLUME_VIEWS = """DEF front Viewpoint { position .3 .5 2.3 orientation 1 -.5 0 -.2 }
-DEF flat OrthoViewpoint { position 0 0 3 fieldOfView -1 -1 1 1 }
+# The first one from far away, where rays begin before the volume; the second one out of the middle, exactly along
+# faces of the box, the last one from inside.
+VOLUME_VIEWS = """DEF far Viewpoint { position -.3 -.2 -30 orientation 0 1 0 3.14159 fieldOfView .06 }
+DEF front Viewpoint { position .3 .5 2.3 orientation 1 -.5 0 -.2 }
+DEF flat OrthoViewpoint { position 0 0 3 fieldOfView -1.5 -1.5 2.5 2.5 }
+DEF inside Viewpoint { position .1 .1 .5 }
 NavigationInfo { headlight FALSE }
 """
-DATA = "PixelTexture3D { image [ 1 3 3 3 " + " ".join(str(i * i * 37 % 256) for i in range(27)) + " ] }"
 
-PAIRS = "PixelTexture3D { image [ 2 3 3 3 " + " ".join(str(i * i * 2311 % 65536) for i in range(27)) + " ] }"
+
+def half(values):
+    """Half of the voxels are clear, some are 1."""
+    return " ".join(str(v if i % 9 < 5 else 0) for i, v in enumerate(values))
+
+
+DATA = "PixelTexture3D { image [ 1 3 3 3 " + half([i * i * 37 % 255 if i % 7 else 255 for i in range(27)]) + " ] }"
+PAIRS = "PixelTexture3D { image [ 2 3 3 3 " + half([i * i * 2311 % 65536 for i in range(27)]) + " ] }"
+MAP = ("OpacityMapVolumeStyle { transferFunction PixelTexture { image 4 1 4 0x20408000 0xC0602030 0x30FF5060 "
+       "0xFFE0C0FF } }")
 
 
 def body(style="", fields="", data=DATA):
     style = f"renderStyle {style}" if style else ""
-    return f"VolumeData {{ dimensions .8125 .8125 1.3 voxels {data} {style} {fields} }}\n"
+    return (f"VolumeData {{ dimensions .875 .875 1.3 opacityUnitDistance .06 voxels {data} {style} {fields} }}\n")
 
 
 class VolumeTwin(Twin):
-    def __init__(self, name, title, *parts, step=0.2):
-        super().__init__(name, title, vert="volume", program="volume-1", step=step)
+    views = "far,front,flat,inside"
+
+    def __init__(self, name, title, *parts, spare=()):
+        super().__init__(name, title, vert="volume", program="volume-1", step=0.08)
         self.scene = scene(VOLUME_VIEWS, *parts)
+        # to look ahead saves time; log(0) and shifts by 32 and more are not defined; pictures may stand anywhere
+        # in a window, and hosts have projections out of the middle
+        self.spare = ("if (value >", "if (texture(", "if (color.a < 1.0)", "- first", "- begin", "- viewport.xy",
+                      "+ p[2].xy", *spare)
 
 
 TWINS = [
@@ -87,13 +107,18 @@ TWINS = [
              "uniform vec3 tint;\nvoid PLUG_fragment_modify(inout vec4 fragment_color)\n"
              "{ fragment_color.rgb = mix(fragment_color.rgb, tint, fragment_color.g); }",
              "inputOutput SFColor tint .2 .9 .4")), vert="phong"),
-    VolumeTwin("ramp", "a volume in the default ramp", body()),
+    VolumeTwin("ramp", "a volume and its transfer function", body(MAP)),
     VolumeTwin("map", "an opacity map of two components", body(
-        "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 2 4 0x20408010 0xC0602080 0x30FF5040 0xFFE0C0FF } }",
-        data=PAIRS)),
+        "OpacityMapVolumeStyle { transferFunction PixelTexture { image 2 3 4 0x20408000 0xC0602000 0x30FF5000 "
+        "0xFFE0C040 0x80808080 0x3090C0FF } }",
+        data=PAIRS), spare=("- 1", "* plr1_transferPlace.zw", "/ vec2(")),  # of looking ahead
     VolumeTwin("boundary", "boundaries that are enhanced", body(
-        "BoundaryEnhancementVolumeStyle { retainedOpacity .3 boundaryOpacity .8 opacityFactor 1.4 }")),
+        "BoundaryEnhancementVolumeStyle { retainedOpacity .3 boundaryOpacity .8 opacityFactor 1.4 }"),
+        # a power may be 0, or of a large number
+        spare=("if (plr1_opacityFactor", "function min(pow(", "function min(length(")),
     VolumeTwin("shaded", "a volume in the light of one light", SUN, body(
-        "ShadedVolumeStyle { lighting TRUE material %s }" % PHONG)),
-    VolumeTwin("clipped", "a volume behind a clip plane", "ClipPlane { plane .5 .3 -1 .2 }\n", body()),
+        "ShadedVolumeStyle { lighting TRUE material %s }" % PHONG.replace("}", "transparency .15 }"))),
+    VolumeTwin("clipped", "a volume behind a clip plane", "ClipPlane { plane .5 .3 0 .05 }\n",
+               body(MAP).replace(".06", ".02"),
+               spare=("sign before 3.0e38", "- eye")),  # no number of steps, too; a rounding
 ]

@@ -114,6 +114,8 @@ def statements(text):
 
 
 ENDS = {")", "]"}
+# no functions, or conversions that may be left out of the text
+NOT_TAKEN = {"if", "for", "while", "float", "uint", "vec2", "vec3"}
 OPERATORS = {"*", "/", "+", "-", "&", "|", "&&", "||", "<<", ">>"}
 
 
@@ -145,7 +147,7 @@ def expressions(text):
             yield " ".join(text[token.start:tokens[end - 1].end].split()), cut(text, tokens, i, end)
         elif token.text in ("-", "!") and not binary:
             yield f"sign before {tokens[i + 1].text}", cut(text, tokens, i, i + 1)
-        elif token.text == "(" and re.match(r"[A-Za-z_]", before.text) and before.text not in ("if", "for", "while"):
+        elif token.text == "(" and re.match(r"[A-Za-z_]", before.text) and before.text not in NOT_TAKEN:
             end = i + 1
             while end < pairs[i] and tokens[end].text != ",":
                 end = pairs[end] + 1 if end in pairs else end + 1
