@@ -36,7 +36,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_LABELS", state->labels ? "1" : "0"},
         {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
-        {"HAS_WALL", segments && state->table->walls > 0 ? "1" : "0"},
+        {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
@@ -178,7 +178,7 @@ static bool any_writes_depth(const plr_view *view, const plr_cast *cast) {
 
 /* Whether some values are opaque. */
 static bool has_wall(const plr_view *view, const plr_cast *cast) {
-    bool any = false;
+    bool any = view->general; /* whatever the functions will be */
     for (size_t i = 0; i < cast->count; i++)
         any = any || view->volumes.volumes[cast->members[i]].table->walls > 0;
     return any;

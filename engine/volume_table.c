@@ -93,6 +93,8 @@ static void find_wall(plr_table *t, const float *texels, uint32_t count) {
                 t->wall_colors[end][c] = fminf(fmaxf(texels[4 * i + c], 0), 1);
         }
     }
+    if (!t->walls) /* no value reaches there */
+        t->wall[0] = t->wall[1] = 2;
     /* filters round: what is opaque but for that is opaque */
     t->wall[0] -= 7.6e-6f;
     t->wall[1] += 7.6e-6f;
