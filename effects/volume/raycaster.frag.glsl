@@ -311,8 +311,10 @@ void main() {
             /* most segments cannot be seen: that is found out first for some, at the least cost */
             int first = i;
             uint visible = 0u;
+            /* as it is where chunks begin elsewhere: leaping changes no bit */
+            float before = t + float(i - 1) * step_length;
             float from = t + float(i) * step_length;
-            /* PLUG: volume_chunk_begin (from, step_length) */
+            /* PLUG: volume_chunk_begin (before, from) */
             for (int k = 0; k < CHUNK; k++) {
                 float to = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
                 i++;

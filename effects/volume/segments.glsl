@@ -4,9 +4,9 @@ uniform vec2 seenValues; /* outside of this open interval values are clear */
 
 float values[11]; /* at the ends of the segments that are looked at together, CHUNK, and one step around */
 
-/* Segments that are looked at together begin here. */
-void PLUG_volume_chunk_begin(const in float t, const in float step_length) {
-    values[0] = value_at(t - step_length);
+/* Segments that are looked at together begin here, those before them end `before`. */
+void PLUG_volume_chunk_begin(const in float before, const in float t) {
+    values[0] = value_at(before);
     values[1] = value_at(t);
 }
 
