@@ -126,9 +126,14 @@ class Row:
         """Pairs of name and options of each way to integrate that the program has."""
         return self.suite.methods()
 
-    def planned(self):
-        """Pairs of asked error and options, where the program plans by an error."""
-        return self.suite.planned()
+    def planned(self, scene=None):
+        """Pairs of asked error and options, where the program plans by an error; none for another scene (than the
+        row's) of which it says that it only estimates."""
+        plans = self.suite.planned()
+        if plans and scene:
+            told = load_json(self.render("--stats", "json", scene=scene).output)
+            return plans if told["error"]["kind"] == "bounded" else []
+        return plans
 
     def render(self, *arguments, scene=None, **options):
         return self.suite.render(scene or self.text, *arguments, files=self.files, **options)
