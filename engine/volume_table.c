@@ -102,7 +102,8 @@ static void find_wall(plr_table *t, const float *texels, uint32_t count) {
 
 /* Integrals from 0 to each node, and between two nodes extinction as a straight line that has the
  * same integral: from row to row of the texture the integral up to a node, what is there, what is
- * added up to the next. */
+ * added up to the next; what
+ * the first lost by rounding. */
 static void fill_sums(const plr_table *t, const float *texels, uint32_t count, float *out) {
     double w = 1.0 / (t->nodes - 1);
     for (uint32_t i = 0; i < t->nodes; i++) {
@@ -124,6 +125,7 @@ static void fill_sums(const plr_table *t, const float *texels, uint32_t count, f
             out[at] = (float)sum;
             out[row + at] = (float)(mean - rise / 2);
             out[2 * row + at] = (float)rise;
+            out[3 * row + at] = (float)(sum - (double)out[at]);
         }
     }
 }
@@ -298,7 +300,7 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     plr_table *t = PLR_NEW(arena, plr_table);
     find_wall(t, texels, count);
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS));
-    plr_image image = make_image(arena, t->nodes, 3);
+    plr_image image = make_image(arena, t->nodes, 4);
     fill_sums(t, texels, count, image.samples);
     t->sums = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
     image = make_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);

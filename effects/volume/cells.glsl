@@ -82,26 +82,26 @@ void PLUG_volume_cell_fit(const in float t, const in float end, inout vec3 need,
 #endif
 }
 
-/* The integral from 0 to a value, and what is there. */
-void sum_at(const in float value, out vec4 sum, out vec4 density) {
+/* The integral from 0 to a value, in two parts of unlike size, and what is there. */
+void sum_at(const in float value, out vec4 sum, out vec4 small, out vec4 density) {
     int nodes = textureSize(sums, 0).x;
     float place = clamp(value, 0.0, 1.0) * float(nodes - 1);
     int node = min(int(place), nodes - 2);
     float beyond = place - float(node);
     vec4 first = texelFetch(sums, ivec2(node, 1), 0), rise = texelFetch(sums, ivec2(node, 2), 0);
     density = first + beyond * rise;
-    sum = texelFetch(sums, ivec2(node, 0), 0) +
-          beyond / float(nodes - 1) * (first + 0.5 * beyond * rise);
+    sum = texelFetch(sums, ivec2(node, 0), 0);
+    small = texelFetch(sums, ivec2(node, 3), 0) + beyond / float(nodes - 1) * (first + 0.5 * beyond * rise);
 }
 
 /* What lies, in the mean, between two values. Close to each other their integrals differ by rounding. */
 vec4 exact_mean(const in float from, const in float to) {
-    vec4 first, last, first_density, last_density;
-    sum_at(from, first, first_density);
-    sum_at(to, last, last_density);
+    vec4 first, last, first_small, last_small, first_density, last_density;
+    sum_at(from, first, first_small, first_density);
+    sum_at(to, last, last_small, last_density);
     float apart = clamp(to, 0.0, 1.0) - clamp(from, 0.0, 1.0);
-    vec4 mean = (last - first) / (apart == 0.0 ? 1.0 : apart);
-    return max(abs(apart) > 5.0e-4 ? mean : 0.5 * (first_density + last_density), 0.0);
+    vec4 mean = ((last - first) + (last_small - first_small)) / (apart == 0.0 ? 1.0 : apart);
+    return abs(apart) > 5.0e-4 ? max(mean, 0.0) : 0.5 * (first_density + last_density);
 }
 
 /* What lies along a part of the piece, which ends at u; `parts` of them are the whole. */
