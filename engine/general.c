@@ -119,15 +119,33 @@ static void warm(plr_view *view) {
 
 /* ---- Building beside ---- */
 
-/* The general programs, before they are needed: asked for, and taken over once they are built. One
- * that does not compile leaves edits waiting for specialised ones. */
-static void prepare_general(plr_view *view) {
+static bool has_tables(const plr_view *view) {
+    for (size_t i = 0; i < view->volumes.count; i++)
+        if (view->volumes.volumes[i].table)
+            return true;
+    return false;
+}
+
+/* Makes a general world, to have its programs; false: some are being built. */
+static bool look_at_general(plr_view *view) {
     bool whole = make(view, true, true, NULL);
     if (make_room(view))
         whole = make(view, true, true, NULL);
     if (whole)
         warm(view);
-    view->general_state.known = !view->composer.waiting;
+    return !view->composer.waiting;
+}
+
+/* The general programs, before they are needed: asked for, and taken over once they are built. One
+ * that does not compile leaves edits waiting for specialised ones. Transfer functions that have a
+ * table may be edited into such as have none. */
+static void prepare_general(plr_view *view) {
+    view->general_state.known = look_at_general(view);
+    if (has_tables(view)) {
+        view->general_state.no_tables = true;
+        view->general_state.known = look_at_general(view) && view->general_state.known;
+        view->general_state.no_tables = false;
+    }
     view->general_state.asked = true;
     go_back(view);
 }
@@ -160,5 +178,7 @@ size_t plr_view_build(plr_view *view, double wait_ms) {
     view->arena.out_of_memory = view->lasting.out_of_memory = &out_of_memory;
     if (setjmp(out_of_memory) == 0)
         left = build(view, wait_ms);
+    else
+        left = SIZE_MAX;
     return left;
 }

@@ -185,6 +185,7 @@ struct plr_view {
     bool general;        /* its worlds are made of general programs (engine/general.h) */
     struct {
         bool asked, known; /* its general programs were asked for; and are built */
+        bool no_tables;    /* those are made that do without (engine/volume_plan.c) */
         uint64_t of;       /* what the scene was then */
         size_t slots[PLR_SLOT_KINDS], most[PLR_SLOT_KINDS]; /* see engine/general.h */
     } general_state;

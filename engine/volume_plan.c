@@ -97,8 +97,8 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
     map_search search = {.general = state->general, .left = MOST_LOOKS};
     if (state->kind != PLR_VOLUME_FILLED || styles->type != PLR_SFNODE || !state->blocks ||
-        state->authors_see_all || state->labels ||
-        !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
+        (state->general && view->general_state.no_tables) || state->authors_see_all ||
+        state->labels || !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
         return false;
     const plr_atlas_place *place = plr_style_place(view, search.map, state->grid);
     if (!place)

@@ -121,7 +121,8 @@ PLR_API bool plr_view_update(plr_view *view, double time, plr_diags *diags);
  * long as some frames, where the driver compiles once more when it first draws. Waits so many
  * milliseconds for what is being built, 0: not at all. Without a context to build in beside
  * (plr_engine_desc.make_shared_current) it builds one program itself. How many are still to be
- * built; it is to be called again then. Needs GL. */
+ * built; it is to be called again then. SIZE_MAX without memory: the view is then to be destroyed.
+ * Needs GL. */
 PLR_API size_t plr_view_build(plr_view *view, double wait_ms);
 
 typedef struct plr_draw_desc {

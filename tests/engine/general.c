@@ -155,7 +155,9 @@ static const example examples[] = {
      .edits = {{"a map on", "B", "enabled", "TRUE"},
                {"knots", "T", "key", "0 0.3 1"},
                {"the map off", "B", "enabled", "FALSE"},
-               {"texels", "P", "image", "2 1 4 0x00ff0010 0xff0000ff"}},
+               {"texels", "P", "image", "2 1 4 0x00ff0010 0xff0000ff"},
+               {"opaque twice", "P", "image",
+                "5 1 4 0x00ff0010 0xff0000ff 0x00ff0010 0x0000ffff 0x00ff0010"}},
      .by_error = true},
     {.name = "cells", .text = tables_text, .edits = TABLE_EDITS, .method = PLR_METHOD_CELLS},
 };
