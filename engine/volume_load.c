@@ -237,7 +237,7 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     }
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
-    if (r.voxels.components == 1 && view->engine && !kept->grid.brick_sides[0])
+    if (r.voxels.components == 1 && !kept->grid.brick_sides[0])
         kept->blocks = plr_blocks_make(&view->lasting, &r.voxels);
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
     kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;

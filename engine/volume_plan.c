@@ -69,7 +69,7 @@ static plr_table *make_table(plr_view *view, const plr_atlas_place *place) {
 }
 
 /* Distances between blocks where something can be seen. */
-static plr_texture *make_leaps(plr_view *view, const plr_volume_state *state) {
+static plr_texture *make_leaps(plr_view *view, plr_volume_state *state) {
     const plr_blocks *blocks = state->blocks;
     size_t count = plr_blocks_count(blocks);
     plr_image image = {.width = blocks->size[0],
@@ -84,9 +84,12 @@ static plr_texture *make_leaps(plr_view *view, const plr_volume_state *state) {
         free(image.samples);
         longjmp(*view->arena.out_of_memory, 1);
     }
-    for (size_t i = 0; i < count; i++)
+    state->full_blocks = 0;
+    for (size_t i = 0; i < count; i++) {
         full[i] =
             plr_table_sees(state->table, (double)blocks->range[i][0], (double)blocks->range[i][1]);
+        state->full_blocks += full[i];
+    }
     plr_blocks_distances(blocks, full, image.samples);
     free(full);
     return plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D_LABELS, false);
@@ -118,7 +121,7 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
 /* ---- Plans ---- */
 
 static bool has_tables(plr_view *view, const plr_cast *cast) {
-    bool tabled = view->engine != NULL;
+    bool tabled = true;
     for (size_t i = 0; tabled && i < cast->count; i++) {
         plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
         tabled = state->table || find_table(view, state);
@@ -129,7 +132,7 @@ static bool has_tables(plr_view *view, const plr_cast *cast) {
 /* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
 #define LEAST_ERROR (1.0 / 4096)
 
-void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
+static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
     plr_plan *plan = &cast->plan;
     bool fixed = desc->step > 0;
@@ -165,4 +168,81 @@ void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
             ? "in each cell of voxels the value is a cubic along the ray; it is cut until what "
               "extinction and colour can differ from their integrals keeps the error"
             : "an effect of an author decides how colours accumulate: the error is estimated";
+}
+
+/* ---- In words ---- */
+
+static const char *storage_words(const plr_view *view, const plr_cast *cast) {
+    bool floats = false;
+    for (size_t i = 0; i < cast->count; i++) {
+        const plr_grid *grid = view->volumes.volumes[cast->members[i]].grid;
+        floats = floats || grid->voxels->image.type == PLR_FLOAT32;
+    }
+    return floats ? "32-bit float texels"
+                  : "16-bit texels: drivers may filter 8-bit ones in 8-bit arithmetic";
+}
+
+static plr_choice say_leaps(plr_view *view, const plr_cast *cast) {
+    if (!cast->plan.leaps)
+        return (plr_choice){"skipping", "none by blocks",
+                            "blocks serve where one transfer function makes a volume visible and "
+                            "nobody asks for single samples"};
+    size_t full = 0, all = 0;
+    for (size_t i = 0; i < cast->count; i++) {
+        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        full += state->full_blocks;
+        all += plr_blocks_count(state->blocks);
+    }
+    return (plr_choice){
+        "skipping", "by distances between blocks",
+        plr_arena_format(
+            &view->arena,
+            "something can be seen in %.0f %% of %zu blocks of %d cells a side; pictures "
+            "stay the same to the bit",
+            all ? 100.0 * (double)full / (double)all : 0, all, PLR_BLOCK_CELLS)};
+}
+
+static plr_choice say_method(plr_view *view, const plr_plan *plan) {
+    static const char *const names[] = {[PLR_METHOD_MIDPOINT] = "midpoint",
+                                        [PLR_METHOD_PREINTEGRATED] = "preintegrated",
+                                        [PLR_METHOD_CELLS] = "cells"};
+    static const char *const costs[] = {
+        [PLR_METHOD_MIDPOINT] = "a sample and its styles a step",
+        [PLR_METHOD_PREINTEGRATED] = "a sample a step, and an integral where it can be seen",
+        [PLR_METHOD_CELLS] = "three samples a cell, and as many integrals as the error asks for"};
+    return (plr_choice){"sampling", names[plan->method],
+                        plr_arena_format(&view->arena, "%s; costs %s, of at most %.3g voxels",
+                                         plan->why, costs[plan->method], plan->step)};
+}
+
+static plr_choice say_error(plr_view *view, const plr_plan *plan) {
+    return (plr_choice){"error", plan->bounded ? "bounded" : "estimated",
+                        plan->value >= 0
+                            ? plr_arena_format(&view->arena,
+                                               "no channel of a pixel differs by more than %.3g",
+                                               plan->value)
+                            : "no bound is known; `plugray chart` measures it"};
+}
+
+static void say(plr_view *view, plr_cast *cast, bool early_end) {
+    enum {
+        CHOICES = 5
+    };
+    plr_choice *choices = PLR_NEW_ARRAY(&view->arena, CHOICES, plr_choice);
+    choices[0] = say_method(view, &cast->plan);
+    choices[1] = say_error(view, &cast->plan);
+    choices[2] = say_leaps(view, cast);
+    choices[3] = (plr_choice){"early termination", early_end ? "where it can be" : "off",
+                              early_end ? "rays end where less than an eighth of the error shines "
+                                          "through"
+                                        : "an effect of an author decides what accumulates"};
+    choices[4] =
+        (plr_choice){"storage", storage_words(view, cast), "voxels keep the precision of the data"};
+    cast->plan.choices = choices;
+    cast->plan.choice_count = CHOICES;
+}
+
+void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
+    choose(view, cast, early_end);
+    say(view, cast, early_end);
 }

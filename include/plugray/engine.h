@@ -257,6 +257,13 @@ PLR_API void plr_view_get_stats(const plr_view *view, plr_view_stats *stats);
 
 /* ---- The plan ---- */
 
+/* One choice of the plan, in words. */
+typedef struct plr_choice {
+    const char *about;  /* "sampling", "skipping", ... */
+    const char *chosen; /* what is done */
+    const char *why;    /* and what it costs or saves */
+} plr_choice;
+
 /* How the volumes of a view are sampled, and what that means for the error of pictures. */
 typedef struct plr_plan {
     double asked;    /* the error; 0: fixed steps were asked for */
@@ -266,6 +273,8 @@ typedef struct plr_plan {
     double step;     /* voxels; of PLR_METHOD_CELLS the longest piece */
     bool leaps;      /* over blocks where nothing can be seen */
     const char *why; /* in words, one sentence; owned by the view, until it is updated */
+    const plr_choice *choices; /* all, likewise */
+    size_t choice_count;
 } plr_plan;
 PLR_API void plr_view_get_plan(const plr_view *view, plr_plan *plan);
 

@@ -211,12 +211,16 @@ check(knots[0]["color"][2] > knots[0]["color"][0] and knots[-1]["color"][0] > kn
 
 plugray.write("v.nrrd", data)
 result, text = info(scene("v.nrrd", "OpacityMapVolumeStyle { }"))
+plan = {choice["about"]: (choice["chosen"], choice["why"]) for choice in result["plan"]}
+check_equal(sorted(plan), ["early termination", "error", "sampling", "skipping", "storage"], "every choice of the plan is told")
+check("plan of volumes:" in text and all(f"    {about}: {chosen}; {why}" in text for about, (chosen, why) in plan.items()),
+      "in words, too", text)
 (program,) = result["programs"]
 check_equal(program["gradients"], 0, "no gradient where nobody asks")
 check_equal([e for m in ("normal_eye", "gradient") for e in program["members"][m]["read_by"]], [], "nobody reads one")
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's")
 check_equal({f["sampler"]: f["count"] for f in program["fetched"]}, 
-            {"voxels": 2, "plugray_TransferFunctions": 1}, "a look ahead, then the voxel and its function")
+            {"voxels": 4, "leaps": 1, "ranges": 1, "sums": 2}, "a cubic in a cell, what bounds it, and its integrals")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
 
 SHADED = """ComposedVolumeStyle { renderStyle [

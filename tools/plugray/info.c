@@ -66,6 +66,7 @@ static void print_all(const tool_scene *scene, plr_view *view, node_list *nodes,
     volume_list volumes = find_volumes(nodes);
     print_nodes(nodes);
     print_volumes(scene->scene, &volumes, xml);
+    print_plan(view);
     print_programs(view);
     free_volumes(&volumes);
 }
@@ -106,6 +107,8 @@ static void write_all(const tool_scene *scene, plr_view *view, node_list *nodes,
     write_nodes(nodes);
     puts(",");
     write_volumes(scene->scene, &volumes, xml);
+    puts(",");
+    write_plan(view);
     puts(",");
     write_programs(view);
     puts("\n}");

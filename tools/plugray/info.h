@@ -80,6 +80,9 @@ void write_volume(const volume_report *report, bool xml);
 /* ---- Programs ---- */
 
 void print_programs(plr_view *view);
+/* How its volumes are sampled; nothing without volumes. */
+void print_plan(const plr_view *view);
+void write_plan(const plr_view *view);
 void write_programs(plr_view *view);
 
 #endif
