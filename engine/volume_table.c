@@ -119,7 +119,7 @@ static void fill_sums(const plr_table *t, const float *texels, uint32_t count, f
             double sum = c < 3 ? t->color[i][c] : t->depth[i];
             double next = c < 3 ? t->color[last][c] : t->depth[last];
             double mean = last > i ? (next - sum) / w : ends[0][c];
-            bool wall = ends[0][3] >= PLR_MOST_DEPTH || ends[1][3] >= PLR_MOST_DEPTH;
+            bool wall = (ends[0][3] >= PLR_MOST_DEPTH) != (ends[1][3] >= PLR_MOST_DEPTH);
             double rise = wall ? 0 : ends[1][c] - ends[0][c];
             size_t at = 4 * (size_t)i + (size_t)c, row = 4 * (size_t)t->nodes;
             out[at] = (float)sum;

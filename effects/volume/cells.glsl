@@ -104,6 +104,18 @@ vec4 exact_mean(const in float from, const in float to) {
     return abs(apart) > 5.0e-4 ? max(mean, 0.0) : 0.5 * (first_density + last_density);
 }
 
+#if HAS_WALL
+/* Of the first opaque value from `from` on: amid opaque ones its own, else that of the nearer end. */
+vec3 opaque_color(const in float from) {
+    const float ROUNDED = 2.0e-5;
+    if (from < wallValues.x + ROUNDED || from > wallValues.y - ROUNDED)
+        return wall_color(from).rgb;
+    vec4 sum, small, density;
+    sum_at(from, sum, small, density);
+    return density.rgb / density.a;
+}
+#endif
+
 /* What lies along a part of the piece, which ends at u; `parts` of them are the whole. */
 void PLUG_volume_cell_part(inout VolumeMix mixed, inout vec4 wall, const in float t, const in float u,
                            const in float parts, const in float span) {
@@ -118,7 +130,7 @@ void PLUG_volume_cell_part(inout VolumeMix mixed, inout vec4 wall, const in floa
     float way = way_to_wall(from, to);
     if (way <= 1.0) {
         length_ratio *= way;
-        wall += vec4(wall_color(from).rgb, 1.0);
+        wall += vec4(opaque_color(from), 1.0);
         to = mix(from, to, way);
         shift = 0.0;
     }
