@@ -22,6 +22,9 @@ float cubic[4];  /* the value over the piece of the ray in the cell, from 0 to 1
 float last_value;
 /* At the end of the part of a piece before. */
 float part_value;
+#if LEAPS
+bool is_clear; /* nothing can be seen in the piece, which may then span many cells */
+#endif
 
 /* Along each axis the first face that lies behind t. */
 void find_faces(const in float t) {
@@ -41,13 +44,16 @@ void PLUG_volume_cell(const in float t, inout float end) {
     if (!is_inside(t))
         return;
     vec3 to_faces = (next_face - cell_origin) * cell_inverse;
+    float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
 #if LEAPS
     vec3 corner;
-    float middle = 0.5 * (t + min(min(to_faces.x, to_faces.y), to_faces.z));
-    if (leap_at(cell_origin + middle * cell_direction, corner) > 0.0)
+    is_clear = leap_at(cell_origin + 0.5 * (t + to_face) * cell_direction, corner) > 0.0;
+    if (is_clear) {
         to_faces = (corner - cell_origin) * cell_inverse;
+        to_face = max(to_face, min(min(to_faces.x, to_faces.y), to_faces.z));
+    }
 #endif
-    end = max(min(end, min(min(to_faces.x, to_faces.y), to_faces.z)), t);
+    end = max(min(end, to_face), t);
 }
 
 /* The value over the piece, and what its integral errs by if it is not cut: x; y: its
@@ -55,10 +61,14 @@ void PLUG_volume_cell(const in float t, inout float end) {
 void PLUG_volume_cell_fit(const in float t, const in float end, inout vec3 need, inout float least,
                           inout float most) {
     float span = end - t;
-    float v0 = last_value;
-    float v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
+    float v0 = last_value, v3 = value_at(end);
     find_faces(end);
     last_value = v3;
+#if LEAPS
+    if (is_clear)
+        return;
+#endif
+    float v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0));
     part_value = v0;
     cubic[0] = v0;
     cubic[1] = 0.5 * (18.0 * v1 - 11.0 * v0 - 9.0 * v2 + 2.0 * v3);
@@ -124,6 +134,10 @@ void PLUG_volume_cell_part(inout VolumeMix mixed, inout vec4 wall, const in floa
     part_value = to;
     if (!is_inside(t))
         return;
+#if LEAPS
+    if (is_clear)
+        return;
+#endif
     float shift = (2.0 * cubic[2] + 6.0 * cubic[3] * (u - 0.5 * part)) * part * part / 12.0;
     float length_ratio = span * depth_ratio;
 #if HAS_WALL
