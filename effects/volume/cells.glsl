@@ -111,7 +111,7 @@ vec4 exact_mean(const in float from, const in float to) {
     sum_at(to, last, last_small, last_density);
     float apart = clamp(to, 0.0, 1.0) - clamp(from, 0.0, 1.0);
     vec4 mean = ((last - first) + (last_small - first_small)) / (apart == 0.0 ? 1.0 : apart);
-    return abs(apart) > 5.0e-4 ? max(mean, 0.0) : 0.5 * (first_density + last_density);
+    return max(abs(apart) > 5.0e-4 ? mean : 0.5 * (first_density + last_density), 0.0);
 }
 
 #if HAS_WALL
