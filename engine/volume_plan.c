@@ -132,6 +132,15 @@ static bool has_tables(plr_view *view, const plr_cast *cast) {
 /* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
 #define LEAST_ERROR (1.0 / 4096)
 
+/* Whether opaque values of one volume may lie within another: where they end a ray, the whole part
+ * of the other counts that they lie in. */
+static bool has_walls_within(const plr_view *view, const plr_cast *cast) {
+    bool walls = false;
+    for (size_t i = 0; i < cast->count; i++)
+        walls = walls || view->volumes.volumes[cast->members[i]].table->walls > 0;
+    return walls && cast->count > 1;
+}
+
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
     plr_plan *plan = &cast->plan;
@@ -160,11 +169,13 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
         return;
     double error = plan->asked > 0 ? plan->asked : 1.0 / 255;
     plan->value = fmax(error, LEAST_ERROR);
-    plan->bounded = early_end;
+    bool walls = has_walls_within(view, cast);
+    plan->bounded = early_end && !walls;
     plan->step = sqrt(3);
     cast->allowed = 0.75 * plan->value;
     plan->why =
-        early_end
+        walls ? "volumes are drawn together of which one has opaque values: the error is estimated"
+        : early_end
             ? "in each cell of voxels the value is a cubic along the ray; it is cut until what "
               "extinction and colour can differ from their integrals keeps the error"
             : "an effect of an author decides how colours accumulate: the error is estimated";
@@ -217,7 +228,7 @@ static plr_choice say_method(plr_view *view, const plr_plan *plan) {
 
 static plr_choice say_error(plr_view *view, const plr_plan *plan) {
     return (plr_choice){"error", plan->bounded ? "bounded" : "estimated",
-                        plan->value >= 0
+                        plan->bounded
                             ? plr_arena_format(&view->arena,
                                                "no channel of a pixel differs by more than %.3g",
                                                plan->value)

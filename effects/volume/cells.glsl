@@ -82,6 +82,11 @@ void PLUG_volume_cell_fit(const in float t, const in float end, inout vec3 need,
     vec4 range = texelFetch(ranges, ivec2(clamp(vec2(low, high), 0.0, 1.0 - 0.5 / RANGES) * RANGES), 0);
     float bend = max(abs(2.0 * cubic[2]), abs(2.0 * cubic[2] + 6.0 * cubic[3]));
     float depth = span * depth_ratio;
+#if MIXES
+    /* colours of volumes in one place are as unlike as can be */
+    if (need.y > 0.0 && range.y > 0.0)
+        need.z = 1.0;
+#endif
     need.xy += vec2(depth * range.x * bend * 0.016, depth * range.y);
     need.z = max(need.z, range.z);
     float finest = ceil(sqrt(bend / (8.0 * VALUE_UNIT)));
