@@ -14,10 +14,9 @@ suite = Suite()
 HERE = os.path.dirname(os.path.abspath(__file__))
 BARE = front_scene(volume(constant(51, (4, 4, 4))))
 # The composed program may have this many times the instructions of the hand-written one, as --stats
-# counts them and after spirv-opt -O (measured 1.12 and 1.02: the clamping between plugs, which a bare
-# volume does not need, and guards against rounding).
+# counts them (measured 1.12: the clamping between plugs, which a bare volume does not need, and guards
+# against rounding). What is left after a compiler's optimisation is compared in twins.py.
 ALLOWED = 1.2
-ALLOWED_OPTIMISED = 1.1
 
 
 def dumped(text, files=None, status=0):
@@ -58,17 +57,18 @@ def uniforms(text):
 
 @suite.case
 def bare_volume():
-    "a bare volume: no light, no gradient, no unused uniform; a voxel, ahead and again, and the function"
+    "a bare volume, whatever the method: no light, no gradient, no unused uniform, one volume"
     programs, folder = dumped(BARE)
     names = [n for n in programs if n.startswith("volume") and n.endswith(".frag")]
     suite.equal("one fragment program", len(names), 1)
     text = without_comments(programs[names[0]])
-    for word in ("light", "normal(?!ize)", "gradient", "[mM]aterial", "VolumeMix", "segment"):
+    for word in ("light", "normal(?!ize)", "gradient", "[mM]aterial", "volume_mix_add", "s\\.segment"):
         suite.check(f"no {word}", not re.search(word, text),
                     *(line for line in text.splitlines() if re.search(word, line)))
     for uniform in uniforms(text):
         suite.check(f"uniform {uniform} is used", len(re.findall(rf"\b{uniform}\b", text)) > 1)
-    suite.equal("two fetches in the text", len(re.findall(r"\btexture(?:Lod|Fetch)?\s*\(", text)), 2)
+    fetches = len(re.findall(r"\btexture(?:Lod|Fetch)?\s*\(", text))
+    suite.check("the voxel in one place, and at most the function", 1 <= fetches <= 2, fetches)
     suite.check("no plug comment and no conditional is left",
                 "PLUG" not in text and "#if" not in text, text)
     validate("bare", folder, programs)
@@ -77,7 +77,7 @@ def bare_volume():
 @suite.case
 def against_the_minimal_one():
     "instructions and fetches against a raycaster written by hand"
-    stats = load_json(suite.render(BARE, "--stats", "json").output)
+    stats = load_json(suite.render(BARE, "--step", ".5", "--stats", "json").output)
     program = next(p for p in stats["programs"] if p["name"].startswith("volume"))
     suite.equal("fetches", program["fetches"], 3)
     with open(os.path.join(HERE, "minimal-raycaster.frag"), encoding="utf-8") as file:
@@ -101,31 +101,6 @@ def against_the_minimal_one():
     ratio = program["instructions"] / own["instructions"]
     print(f"# {program['instructions']} instructions, by hand {own['instructions']}: ratio {ratio:.3f}")
     suite.check(f"at most {ALLOWED} times the instructions", 0.5 < ratio <= ALLOWED, ratio)
-
-
-def optimised(path, folder):
-    """Instructions of a fragment shader after spirv-opt -O, without types, constants and labels."""
-    run = lambda *words: subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, check=True).stdout
-    run("glslangValidator", "-G", "--aml", "--amb", "-S", "frag", path, "-o", "plain.spv")
-    run("spirv-opt", "-O", "plain.spv", "-o", "fast.spv")
-    text = run("spirv-dis", "fast.spv").decode()
-    bodies = re.findall(r"OpFunction .*?OpFunctionEnd", text, flags=re.S)
-    return sum(len(re.findall(r"\bOp\w+", body)) - body.count("OpLabel") for body in bodies)
-
-
-@suite.case
-def optimised_against_the_minimal_one():
-    "instructions against the raycaster by hand after a compiler's optimisation"
-    if not (validator() and shutil.which("spirv-opt") and shutil.which("spirv-dis")):
-        suite.skip("optimised", "glslangValidator and spirv-opt are not installed")
-        return
-    programs, folder = dumped(BARE)
-    name = next(n for n in programs if n.startswith("volume") and n.endswith(".frag"))
-    composed = optimised(name, folder)
-    minimal = optimised(os.path.join(HERE, "minimal-raycaster.frag"), folder)
-    print(f"# {composed} instructions, by hand {minimal}: ratio {composed / minimal:.3f}")
-    suite.check(f"at most {ALLOWED_OPTIMISED} times", composed <= ALLOWED_OPTIMISED * minimal,
-                (composed, minimal))
 
 
 @suite.case
