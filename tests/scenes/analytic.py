@@ -18,16 +18,16 @@ del sys.argv[2:]
 
 from analytic_page import BEGIN, END, PAGE, cells_of, page_rows, table  # noqa: E402
 
-text = PAGE.read_text(encoding="utf-8")
-rows = {} if whole else page_rows(text)
-failed = 0
+failed, results = 0, {}
 for name in names:
     suite = importlib.import_module("analytic_" + name).suite
     try:
         suite.run()
     except SystemExit as end:
         failed |= int(bool(end.code))
-    rows.update((row, cells_of(found)) for row, found in suite.results.items())
+    results.update((row, cells_of(found)) for row, found in suite.results.items())
+text = PAGE.read_text(encoding="utf-8")  # as others left it
+rows = {**({} if whole else page_rows(text)), **results}
 head, rest = text.split(BEGIN)
 PAGE.write_text(f"{head}{BEGIN}\n\n{table(rows)}\n{END}{rest.split(END)[1]}", encoding="utf-8")
 sys.exit(failed)

@@ -23,8 +23,12 @@ EXACT = "exact"     # but for rounding, and for what a table can hold
 BOUNDED = "bounded"  # within a constant times the step: fields or functions that jump
 KINKED = "kinked"    # within a constant times its square: fields with kinks, as voxels have
 
-AT_LEAST = "order 2 or more"
+PLANNED = "at most the error asked for"  # whatever the step
+SAME = "as midpoint"  # what has no integrals of cells
 POWERS = {BOUNDED: 1, KINKED: 2}
+# The least trend over the halvings of a step. A table knows nothing of kinks within its segments.
+TRENDS = {(MIDPOINT, BOUNDED): 0.8, (TABLE, BOUNDED): 0.8, (MIDPOINT, KINKED): 1.6, (TABLE, KINKED): 1.4}
+ASKED = (1 / 255, 1 / 1023)
 
 
 def offered_methods(suite):
@@ -38,6 +42,11 @@ def offered_methods(suite):
 def method_arguments(suite, method, step):
     has_option = len(offered(suite)) > 1
     return ["--step", repr(float(step))] + (["--method", method] if has_option else [])
+
+
+def integrated(suite):
+    """The methods whose errors follow from the step."""
+    return [method for method in offered(suite) if method != CELLS]
 
 
 def offered(suite):
@@ -126,7 +135,7 @@ HALVINGS = (1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32)
 
 class Case:
     """`truth(chord)` is the premultiplied colour of a ray, or None where nothing is said; `orders` what
-    each method is expected to show: a number, AT_LEAST, EXACT, BOUNDED (by `bound` times the step) or KINKED (by its
+    each method is expected to show: a number, PLANNED, SAME, EXACT, BOUNDED (by `bound` times the step) or KINKED (by its
     square); `steps` the steps that show it, in voxels; `tolerance` what EXACT allows a method beyond
     rounding."""
 
@@ -222,6 +231,12 @@ class Sheet:
             raise CaseError(result.errors)
         return [Picture(os.path.join(result.folder, f"a-{i:04}.npy")) for i in range(1, count + 1)], result.output
 
+    def planned(self, case, error):
+        """Of `cells`, which cuts rays where that error needs it."""
+        if error not in self.drawn:
+            self.drawn[error] = self.draw("--method", CELLS, "--error", repr(error))[0]
+        return self.drawn[error][self.cases.index(case)]
+
     def picture(self, case, method, step, backend="auto"):
         return self.pictures(method, step, backend)[self.cases.index(case)]
 
@@ -294,13 +309,22 @@ def check_order(suite, method, errors, counts, order, least=5, row=None):
                         f"orders {show(orders)}, of {least} above the floor")
 
 
-def check_at_least(suite, method, errors, counts, tolerance, row=None):
-    """Of order 2, or of more, or exact: of a method that cuts rays where it needs to."""
-    orders = observed_orders(errors, counts)
-    found = f"{median(orders):.2f}" if len(orders) >= 5 else f"worst {max(errors):.1e}"
-    exact = all(e <= max(tolerance, floor_of(n)) for e, n in zip(errors, counts))
-    fine = exact or len(orders) >= 5 and median(orders) >= 1.9 and not grows(errors, counts)
-    return suite.result(row, method, AT_LEAST, found, fine, f"errors {show(errors)}", f"orders {show(orders)}")
+def check_planned(sheet, case, colors=None, row=None):
+    """No error is greater than what is asked for: 1/255 where nothing is, whatever the step."""
+    suite, colors = sheet.suite, colors or sheet.expected(case)[0]
+    pictures = [sheet.picture(case, CELLS, case.steps[0]), sheet.planned(case, ASKED[1])]
+    errors = [greatest_error(picture, colors) for picture in pictures]
+    suite.check(f"{CELLS}: finite, 0 <= A <= 1, I <= A", all(map(is_physical, pictures)))
+    return suite.result(row, CELLS, PLANNED, ", ".join(f"{e:.1e} of 1/{1 / a:.0f}" for e, a in zip(errors, ASKED)),
+                        all(e <= a for e, a in zip(errors, ASKED)), f"errors {show(errors)}")
+
+
+def check_same(sheet, case, method):
+    """To the bit."""
+    step = case.steps[1]
+    got, wanted = (sheet.picture(case, m, step).values for m in (method, MIDPOINT))
+    worst = max(abs(a - b) for a, b in zip(got, wanted))
+    return sheet.suite.result(None, method, SAME, f"{worst:.1g} apart", got.tobytes() == wanted.tobytes())
 
 
 def check_exact(suite, method, errors, counts, tolerance, row=None):
@@ -311,16 +335,17 @@ def check_exact(suite, method, errors, counts, tolerance, row=None):
                         f"allowed {show(allowed)}")
 
 
-def check_bounded(suite, method, errors, lengths, counts, constant, power, row=None):
+def check_bounded(suite, method, errors, lengths, counts, constant, order, row=None):
     """e <= constant * h^power; a kink or a jump makes single ratios of errors vary, not their trend. Of
     errors that floats may make themselves no trend is asked."""
+    power = POWERS[order]
     allowed = [max(constant * h**power, floor_of(n)) for h, n in zip(lengths, counts)]
     whole = slope_of([-math.log2(max(e, 1e-9)) for e in errors])
     used = max(e / h**power for e, h in zip(errors, lengths))
     unit = "h" if power == 1 else f"h^{power}"
     return suite.result(row, method, f"at most {constant:.3g} {unit}", f"{used:.2g} {unit}, order {whole:.2f}",
                         all(e <= a for e, a in zip(errors, allowed))
-                        and (whole >= 0.8 * power or max(errors) <= max(map(floor_of, counts))),
+                        and (whole >= TRENDS[method, order] or max(errors) <= max(map(floor_of, counts))),
                         f"errors {show(errors)}", f"allowed {show(allowed)}")
 
 
@@ -349,19 +374,24 @@ def check_case(sheet, case):
         if method not in case.orders:
             continue
         order = case.orders[method]
-        errors = [sheet.error(case, method, step) for step in case.steps]
-        lengths = [step * case.box.voxel() for step in case.steps]
+        if order == PLANNED:
+            check_planned(sheet, case)
+            continue
+        if order == SAME:
+            check_same(sheet, case, method)
+            continue
+        steps = case.steps[:1] if method == CELLS else case.steps  # which says nothing to it
+        errors = [sheet.error(case, method, step) for step in steps]
+        lengths = [step * case.box.voxel() for step in steps]
         counts = [longest / length for length in lengths]
         if order == EXACT:
             check_exact(suite, method, errors, counts, case.tolerance.get(method, 0))
-        elif order == AT_LEAST:
-            check_at_least(suite, method, errors, counts, case.tolerance.get(method, 0))
         elif order in POWERS:
-            check_bounded(suite, method, errors, lengths, counts, case.bound, POWERS[order])
+            check_bounded(suite, method, errors, lengths, counts, case.bound, order)
         else:
             check_order(suite, method, errors, counts, order)
         suite.check(f"{method}: finite, 0 <= A <= 1, I <= A",
-                    all(is_physical(sheet.picture(case, method, step)) for step in case.steps))
+                    all(is_physical(sheet.picture(case, method, step)) for step in steps))
 
 
 def has_backend(suite, name):

@@ -5,9 +5,9 @@ import math
 import random
 
 import analytic_truth as truth
-from analytic_data import (AT_LEAST, BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT, OBLIQUE, TABLE, Sheet, add_cases,
-                           check_backends, check_denser, check_order, grey, image3d, mapped_case,
-                           offered)
+from analytic_data import (BOUNDED, CELLS, HALVINGS, KINKED, MIDPOINT, OBLIQUE, PLANNED, TABLE, Sheet, add_cases,
+                           check_backends, check_denser, check_order, grey, image3d, integrated,
+                           mapped_case, offered)
 from analytic_grid import Grid
 from analytic_page import Analytic
 from analytic_rays import Box, Parallel, Transform, centres, words
@@ -21,7 +21,8 @@ suite = Analytic()
 DIMENSIONS = (0.64, 0.5, 0.56)
 COARSE = [2 * s for s in HALVINGS]
 VIEW = Parallel(0.5)
-EVERY = {MIDPOINT: 2, TABLE: 2, CELLS: AT_LEAST}
+EVERY = {MIDPOINT: 2, TABLE: KINKED, CELLS: PLANNED}
+ROUGH = {**EVERY, MIDPOINT: KINKED}
 
 KAPPAS = {"V6": 25.0, "V7": 24.0, "V8b": 18.0, "V8a": 6.0}
 
@@ -108,7 +109,7 @@ def cell(seed):
 
 def uneven(name, field, kappa):
     box = Box(DIMENSIONS, (6, 5, 7), place=OBLIQUE)
-    return gridded(name + ", of voxels", Grid(box, field), kappa, orders=dict.fromkeys(EVERY, KINKED))
+    return gridded(name + ", of voxels", Grid(box, field), kappa, orders=ROUGH)
 
 
 GRIDS = [uneven("V6 exponential", exponential, KAPPAS["V6"]), uneven("V7 bell", bell, KAPPAS["V7"]),
@@ -123,7 +124,7 @@ def half_texels(count):
     alpha = -math.expm1(-3.0 * (2 * count + 1) / (6 * count))
     return mapped_case(f"V13 {count} voxels in a row", image3d(f"row{count}.nrrd"), {f"row{count}.nrrd": row.file()},
                        box, lambda s: 3 * s * s, lambda s: 1.0, lambda chord: (alpha,) * 4, bound=3 * count,
-                       steps=[s * count / 16 for s in HALVINGS], orders=dict.fromkeys(EVERY, KINKED))
+                       steps=[s * count / 16 for s in HALVINGS], orders={**ROUGH, TABLE: BOUNDED})
 
 
 def denser(case, kappa):
@@ -169,7 +170,7 @@ def finer_grids():
     "V7 refinement of the grid"
     cases = [smooth_case((n,) * 3) for n in (3, 6, 12, 24, 48, 96)]
     step = 1 / 400
-    for method in offered(suite):
+    for method in integrated(suite):
         errors, counts = [], []
         for case in cases:
             alone = Sheet(suite, [case], Parallel(0.4))
@@ -192,7 +193,7 @@ def finer_pixels():
     case = smooth_case((256, 256, 6), Transform())  # across the picture no kinks to be seen
     fine, view = 144, Parallel(0.3)
     sizes = (3, 6, 12, 24, 48)
-    for method in offered(suite):
+    for method in integrated(suite):
         found = [Sheet(suite, [case], view, pixels=n).picture(case, method, 1) for n in (*sizes, fine)]
         bilinear, nearest = [], []
         for size, picture in zip(sizes, found):

@@ -8,8 +8,8 @@ extinction of O is -ln(1 - clamp(O k)) / reference (accuracy is judged with that
 import math
 
 import analytic_truth as truth
-from analytic_data import (EXACT, HALVINGS, OBLIQUE, RAMP_GRADIENT, REFERENCE, Sheet, add_cases, check_backends,
-                           image3d, mapped_case, on_ramp, ramp_value)
+from analytic_data import (CELLS, EXACT, HALVINGS, MIDPOINT, OBLIQUE, RAMP_GRADIENT, REFERENCE, SAME, TABLE, Sheet,
+                           add_cases, check_backends, image3d, mapped_case, on_ramp, ramp_value)
 from analytic_grid import Grid
 from analytic_page import Analytic
 from analytic_rays import Box, Parallel, centres
@@ -21,9 +21,8 @@ from style_data import boundary, cartoon, edge, silhouette, tone
 suite = Analytic()
 
 DIMENSIONS = (0.64, 0.5, 0.56)
-METHODS = ("midpoint", "preintegrated", "cells")
 COARSE = [2 * s for s in HALVINGS]
-ALWAYS, SECOND = dict.fromkeys(METHODS, EXACT), dict.fromkeys(METHODS, 2)
+ALWAYS, SECOND = dict.fromkeys((MIDPOINT, TABLE, CELLS), EXACT), {MIDPOINT: 2, TABLE: 2, CELLS: SAME}
 VIEW = Parallel(0.44)
 
 # ---- V20a: light in a homogeneous slab, shadowed by the slab itself
