@@ -5,7 +5,9 @@
  * Pre-integration: Max, Hanrahan, Crawfis 1990; Engel, Kraus, Ertl 2001. The table has means, not
  * products with a length, so that segments may be of any length. */
 
+#if !CELLS
 uniform sampler2D integrals; /* mean of colour * extinction, and of extinction, per reference length */
+#endif
 uniform usampler3D leaps;    /* blocks from here to the next in which anything can be seen */
 
 const float BLOCK_CELLS = 4.0; /* the same in C: PLR_BLOCK_CELLS */
@@ -14,7 +16,9 @@ const float BLOCK_CELLS = 4.0; /* the same in C: PLR_BLOCK_CELLS */
 vec3 cell_origin;
 vec3 cell_direction;
 vec3 cell_inverse;
+#if !CELLS
 vec3 table_place; /* from values to texture coordinates of the table: scale, shift, and nothing */
+#endif
 float depth_ratio; /* from lengths of the ray to reference lengths */
 
 float value_at(const in float t) {
@@ -25,8 +29,10 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     vec3 count = voxel_count();
     cell_origin = ray_origin * count + 0.5;
     cell_direction = ray_direction * count;
+#if !CELLS
     float nodes = float(textureSize(integrals, 0).x);
     table_place = vec3((nodes - 1.0) / nodes, 0.5 / nodes, 0.0);
+#endif
     depth_ratio = ray_speed / referenceLength;
     cell_inverse = 1.0 / mix(cell_direction, vec3(1.0e-30), equal(cell_direction, vec3(0.0)));
 }
@@ -70,7 +76,9 @@ vec4 wall_color(const in float from) {
 }
 #endif
 
+#if !CELLS
 /* What lies, in the mean, between two values: colour times extinction, extinction. */
 vec4 mean_between(const in float from, const in float to) {
     return texture(integrals, vec2(from, to) * table_place.x + table_place.y);
 }
+#endif

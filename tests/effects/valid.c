@@ -279,17 +279,48 @@ static const plr_define fog_of_volume[] = {
     {"HAS_PARTS", "0"}, {"WRITES_DEPTH", "0"}, {                                                   \
         "PICKS", "0"                                                                               \
     }
+#define NO_SEGMENTS                                                                                \
+    {"SEGMENTS", "0"}, {"CELLS", "0"}, {                                                           \
+        "HAS_WALL", "0"                                                                            \
+    }
 #define EVERY_STEP                                                                                 \
-    { "SKIPS", "0" }
+    NO_SEGMENTS, {                                                                                 \
+        "SKIPS", "0"                                                                               \
+    }
 static const plr_define one_volume[] = {
     {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
     {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         EVERY_STEP};
 static const plr_define one_skipping[] = {
-    {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
-    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SKIPS", "1"}};
+    {"MIXES", "0"},      {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"},
+    {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
+    WHOLE_RAYS,          NO_SEGMENTS,         {"SKIPS", "1"}};
 static const plr_define two_skipping[] = {
-    {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
-    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SKIPS", "1"}};
+    {"MIXES", "1"},      {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"},
+    {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
+    WHOLE_RAYS,          NO_SEGMENTS,         {"SKIPS", "1"}};
+#define CUT(cells, leaps, mixes, wall)                                                             \
+    {                                                                                              \
+        {"MIXES", mixes}, {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},            \
+            {"EARLY_END", "1"}, {"HAS_CUT", "0"}, WHOLE_RAYS, {"SKIPS", "0"}, {"SEGMENTS", "1"},   \
+            {"CELLS", cells}, {"LEAPS", leaps}, {                                                  \
+            "HAS_WALL", wall                                                                       \
+        }                                                                                          \
+    }
+static const plr_define in_segments[] = CUT("0", "1", "0", "0");
+static const plr_define two_in_segments[] = CUT("0", "0", "1", "1");
+static const plr_define in_cells[] = CUT("1", "1", "0", "0");
+static const plr_define two_in_cells[] = CUT("1", "1", "1", "1");
+#define TABLED "volume/Volume volume/grid volume/table "
+static const plr_define tabled[] = {{"voxels_COMPONENTS", "1"},
+                                    {"HAS_LABELS", "0"},
+                                    {"BRICKED", "0"},
+                                    {"PROJECTS", "0"},
+                                    {"HAS_WALL", "0"}};
+static const plr_define walled[] = {{"voxels_COMPONENTS", "1"},
+                                    {"HAS_LABELS", "0"},
+                                    {"BRICKED", "0"},
+                                    {"PROJECTS", "0"},
+                                    {"HAS_WALL", "1"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
@@ -634,6 +665,33 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"}},
      DEFINES(two_skipping),
      .present = "lowest_bit volume_visible VolumeMix ahead_sums piece_t"},
+    {"one volume in segments",
+     "volume/raycaster",
+     {{.path = TABLED "volume/segments", DEFINES(tabled)}, {.path = "volume/Composite"}},
+     DEFINES(in_segments),
+     .present = "integrals leaps lowest_bit",
+     .absent = "wallValues"},
+    {"two volumes in segments",
+     "volume/raycaster",
+     {{.path = TABLED "volume/segments", DEFINES(walled)},
+      {.path = TABLED "volume/segments", DEFINES(walled)},
+      {.path = "volume/Composite"}},
+     DEFINES(two_in_segments),
+     .present = "integrals wallValues",
+     .absent = "leaps"},
+    {"one volume in cells",
+     "volume/raycaster",
+     {{.path = TABLED "volume/cells", DEFINES(tabled)}, {.path = "volume/Composite"}},
+     DEFINES(in_cells),
+     .present = "sums ranges leaps",
+     .absent = "integrals wallValues lowest_bit"},
+    {"two volumes in cells",
+     "volume/raycaster",
+     {{.path = TABLED "volume/cells", DEFINES(walled)},
+      {.path = TABLED "volume/cells", DEFINES(tabled)},
+      {.path = "volume/Composite"}},
+     DEFINES(two_in_cells),
+     .present = "sums wallValues"},
     {"one lit volume",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},

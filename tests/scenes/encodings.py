@@ -172,7 +172,7 @@ def usage():
     for arguments in (("a.x3dv",), ("a.x3dv", "--probe", "1"), ("a.x3dv", "--probe", "999,0"),
                       ("a.x3dv", "--size", "0x4", "--probe", "0,0"), ("a.x3dv", "-o", "a.gif"),
                       ("a.x3dv", "--step", "-1", "--probe", "0,0"), ("a.x3dv", "--nonsense"),
-                      ("a.x3dv", "--error", "0.1", "--probe", "0,0"), ("--probe", "0,0")):
+                      ("a.x3dv", "--error", "2", "--probe", "0,0"), ("--probe", "0,0")):
         result = suite.command("render", *arguments, status=None, folder=folder)
         suite.equal(" ".join(arguments), result.status, 2)
 
