@@ -39,6 +39,7 @@ typedef struct plr_cast {
     unsigned slabs;           /* along the view, in which it is cast */
     bool picks;               /* says what is seen instead of drawing it (engine/pick.c) */
     struct plr_cast *picking; /* the same that picks; NULL: not asked for yet */
+    bool everywhere;          /* an author draws where no volume is, too */
     plr_plan plan;            /* how rays are integrated */
     double allowed;           /* error of the integral along a ray, of PLR_METHOD_CELLS */
 } plr_cast;

@@ -60,7 +60,7 @@ static void run_once(void *user) {
     gl->Disable(GL_CULL_FACE);
     gl->UseProgram(cast->pass.built->name);
     plr_hull hull;
-    plr_volume_hull(pass->volumes, cast->members, cast->count, frame, &hull);
+    plr_volume_hull(pass->volumes, cast->members, cast->everywhere ? 0 : cast->count, frame, &hull);
     plr_values values = {.hull = &hull,
                          .error = cast->allowed,
                          .frame = frame,

@@ -47,7 +47,8 @@ static bool add_box(const plr_volume_state *volume, const plr_frame *frame, poin
     for (int corner = 0; corner < CORNERS; corner++) {
         double p[3], q[4];
         for (int axis = 0; axis < 3; axis++) {
-            double end = corner >> axis & 1 ? fmin((double)high[axis], 1) : fmax((double)low[axis], 0);
+            double end =
+                corner >> axis & 1 ? fmin((double)high[axis], 1) : fmax((double)low[axis], 0);
             p[axis] = volume->dimensions[axis] * (end - 0.5);
         }
         for (int row = 0; row < 4; row++)
@@ -91,6 +92,10 @@ void plr_volume_hull(const plr_volume_state *volumes, const size_t *members, siz
         }
         memcpy(points, chain, found * sizeof *chain);
         size = found;
+    }
+    if (!count) {
+        cover_all(hull);
+        return;
     }
     hull->count = (int)size;
     for (size_t i = 0; i < size; i++)

@@ -5,7 +5,7 @@
 #include "engine/bind.h"
 
 /* The convex hull of the boxes in the picture, a pixel wider, in clip coordinates; of what reaches
- * behind the eye, the whole picture. */
+ * behind the eye, or of no volumes, the whole picture. */
 void plr_volume_hull(const plr_volume_state *volumes, const size_t *members, size_t count,
                      const plr_frame *frame, plr_hull *hull);
 

@@ -83,6 +83,12 @@ static void note_calls(plr_volume_pass *pass, const plr_program *program, size_t
 static ray_use find_ray_use(plr_view *view, plr_cast *cast) {
     ray_use use = {.layers = PLR_NEW_ARRAY(&view->arena, view->volumes.count, bool)};
     plr_program *program = plr_link_recipe(&view->composer, &cast->pass.recipe, false, NULL);
+    for (size_t i = 0; i < cast->pass.recipe.effects.count; i++) {
+        /* what stands at a style, or takes its place, needs that style */
+        const plr_effect *effect = &cast->pass.recipe.effects.items[i];
+        if (!effect->builtin && effect->target && *effect->target)
+            plr_volume_note_call(&view->volumes, "", cast->pass.recipe.bindings.items[i].volume);
+    }
     for (size_t i = 0; program && i < plr_program_plug_count(program); i++)
         note_calls(&view->volumes, program, i, &cast->pass.recipe, &use);
     plr_program_destroy(&program);
@@ -202,6 +208,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         split_layers(view, use.layers, diags);
     for (size_t i = 0; i < pass->cast_count; i++) {
         plr_cast *cast = &pass->casts[i];
+        cast->everywhere = use.accumulates;
         plr_cast_plan(view, cast, !use.accumulates);
         plr_cast_build_recipe(view, cast, !use.accumulates, NULL);
         split_by_textures(view, cast, diags);

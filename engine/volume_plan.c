@@ -120,13 +120,26 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
 
 /* ---- Plans ---- */
 
+/* Together volumes need no more textures than every machine has, opaque values of one would have to
+ * end the parts of others, and translucent surfaces cut rays elsewhere. */
+static bool can_be_cut(plr_view *view, const plr_cast *cast) {
+    enum {
+        MOST_TOGETHER = 3
+    };
+    bool walls = false;
+    for (size_t i = 0; i < cast->count; i++)
+        walls = walls || view->volumes.volumes[cast->members[i]].table->walls > 0;
+    return cast->count <= MOST_TOGETHER && !(walls && cast->count > 1) &&
+           !plr_cast_is_divided(view, cast);
+}
+
 static bool has_tables(plr_view *view, const plr_cast *cast) {
     bool tabled = true;
     for (size_t i = 0; tabled && i < cast->count; i++) {
         plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
         tabled = state->table || find_table(view, state);
     }
-    return tabled;
+    return tabled && can_be_cut(view, cast);
 }
 
 /* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
@@ -157,8 +170,8 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
                                                         : PLR_METHOD_CELLS;
     if (wanted != PLR_METHOD_MIDPOINT && !has_tables(view, cast)) {
         plan->why =
-            "samples in the middle of half a voxel's steps: a volume is not made visible by one "
-            "transfer function of one component alone, so no bound is known";
+            "samples in the middle of steps: a volume is not made visible by one transfer function "
+            "of one component alone, or there are too many together, so no bound is known";
         return;
     }
     plan->method = wanted;
