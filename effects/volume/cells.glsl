@@ -9,6 +9,7 @@
  * opacity * change of colour * depth / 2. (Novins, Arvo 1992 have such bounds for other rules.)
  */
 
+uniform vec2 seenValues;  /* outside of this open interval values are clear */
 uniform sampler2D sums;   /* integrals of colour * extinction and of extinction up to each node of values; what is
                              there; what is added to that up to the next node */
 uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour */
@@ -22,9 +23,7 @@ float cubic[4];  /* the value over the piece of the ray in the cell, from 0 to 1
 float last_value;
 /* At the end of the part of a piece before. */
 float part_value;
-#if LEAPS
 bool is_clear; /* nothing can be seen in the piece, which may then span many cells */
-#endif
 
 /* Along each axis the first face that lies behind t. */
 void find_faces(const in float t) {
@@ -47,7 +46,9 @@ void PLUG_volume_cell(const in float t, inout float end) {
     float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
 #if LEAPS
     vec3 corner;
-    is_clear = leap_at(cell_origin + 0.5 * (t + to_face) * cell_direction, corner) > 0.0;
+    /* the cell by its faces: rounding takes none for its neighbour, however short the ray is in it */
+    vec3 cell = next_face - mix(vec3(-0.5), vec3(0.5), greaterThanEqual(cell_direction, vec3(0.0)));
+    is_clear = leap_at(cell, corner) > 0.0;
     if (is_clear) {
         to_faces = (corner - cell_origin) * cell_inverse;
         to_face = max(to_face, min(min(to_faces.x, to_faces.y), to_faces.z));
@@ -69,6 +70,11 @@ void PLUG_volume_cell_fit(const in float t, const in float end, inout vec3 need,
         return;
 #endif
     float v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0));
+    /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
+     * rounded to those behind. So that cells are clear here where a leap would pass over them. */
+    is_clear = v1 == 0.0 && v2 == 0.0 && seenValues.x >= 0.0;
+    if (is_clear)
+        return;
     part_value = v0;
     cubic[0] = v0;
     cubic[1] = 0.5 * (18.0 * v1 - 11.0 * v0 - 9.0 * v2 + 2.0 * v3);
@@ -137,12 +143,8 @@ void PLUG_volume_cell_part(inout VolumeMix mixed, inout vec4 wall, const in floa
     float from = part_value, part = 1.0 / parts;
     float to = ((cubic[3] * u + cubic[2]) * u + cubic[1]) * u + cubic[0];
     part_value = to;
-    if (!is_inside(t))
+    if (!is_inside(t) || is_clear)
         return;
-#if LEAPS
-    if (is_clear)
-        return;
-#endif
     float shift = (2.0 * cubic[2] + 6.0 * cubic[3] * (u - 0.5 * part)) * part * part / 12.0;
     float length_ratio = span * depth_ratio;
 #if HAS_WALL
