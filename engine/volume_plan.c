@@ -103,6 +103,8 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
         (state->general && view->general_state.no_tables) || state->authors_see_all ||
         state->labels || !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
         return false;
+    if (plr_pass_fog(view, view->volumes.leaves[state->index]->scope)->node)
+        return false;
     const plr_atlas_place *place = plr_style_place(view, search.map, state->grid);
     if (!place)
         return false;

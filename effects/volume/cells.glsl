@@ -16,7 +16,7 @@ uniform sampler2D ranges; /* between two values: change of slope, extinction, ch
 
 
 const float RANGES = 64.0; /* the same in C: PLR_TABLE_RANGES */
-const float VALUE_UNIT = 1.0 / 65535.0; /* voxels are not held finer: nor need they be followed */
+const float VALUE_UNIT = 1.0 / 524288.0; /* values are not followed finer */
 
 vec3 next_face;  /* along each axis, in cells */
 float cubic[4];  /* the value over the piece of the ray in the cell, from 0 to 1 */

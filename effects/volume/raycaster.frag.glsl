@@ -333,7 +333,8 @@ void main() {
                 float end = n + 1 < steps ? t + float(n + 1) * step_length : t_next;
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
                 float span = end - begin;
-                /* PLUG: volume_segment (mixed, k, begin, span) */
+                bool even = n > 0 && n + 2 < steps; /* its neighbours are as long */
+                /* PLUG: volume_segment (mixed, k, begin, span, even) */
                 VolumeSample s;
                 vec4 color = volume_mix_color(mixed);
 #if READS(position_eye)

@@ -38,12 +38,13 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
 }
 #endif
 
-/* What lies along segment k of those that are looked at together. */
-void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t, const in float span) {
+/* What lies along segment k of those that are looked at together; `even`: its neighbours are as long. */
+void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t, const in float span,
+                         const in bool even) {
     float from = values[k + 1], to = values[k + 2];
     /* the mean over the segment differs from that of its ends by a twelfth of the second difference; the
      * line keeps between the ends: where nothing can be seen nothing is added */
-    float shift = (values[k] - from - to + values[k + 3]) / 12.0;
+    float shift = even ? (values[k] - from - to + values[k + 3]) / 12.0 : 0.0;
     float least = -abs(from - to), up = clamp(shift, least, 0.0), down = clamp(shift, 0.0, -least);
     bool falls = from > to;
     from -= falls ? down : up;

@@ -59,7 +59,7 @@ PARALLEL = "OrthoViewpoint { position 0 0 1 fieldOfView [ -0.08 -0.06 0.08 0.06 
 
 
 def draw(text, *names):
-    return suite.picture(text, size=f"{WIDTH}x{HEIGHT}", files=files(*names))
+    return suite.picture(text, "--step", "0.5", size=f"{WIDTH}x{HEIGHT}", files=files(*names))
 
 
 def lit(picture, x, y):

@@ -67,7 +67,7 @@ def fine_table():
              for i in range(256)]
     function = texture(256, 1, 4, [f"0x{w:08X}" for w in words])
     for value in (0, 1, 100, 127, 128, 254, 255):
-        suite.close(f"value {value}", suite.middle(mapped(function, value)),
+        suite.close(f"value {value}", suite.middle(mapped(function, value), "--step", "0.5"),
                     expected(rgba(words[value])))
 
 
@@ -160,8 +160,8 @@ def ramp_equals_function():
         style = ("OpacityMapVolumeStyle { transferFunction "
                  + texture(count, 1, 2, [f"0x{w:04X}" for w in words]) + " }")
         text = front_scene(volume(data, style))
-        pictures.append(suite.picture(text, size="24x24").values)
-    plain = suite.picture(front_scene(volume(data)), size="24x24").values
+        pictures.append(suite.picture(text, "--step", "0.5", size="24x24").values)
+    plain = suite.picture(front_scene(volume(data)), "--step", "0.5", size="24x24").values
     suite.close("2 and 256", max(abs(a - b) for a, b in zip(*pictures)), 0, 1e-5)
     suite.close("2 and none", max(abs(a - b) for a, b in zip(pictures[0], plain)), 0, 1e-5)
     suite.check("something is drawn", max(plain) > 0.3, max(plain))

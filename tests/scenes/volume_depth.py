@@ -70,9 +70,10 @@ def one_sheet():
 def beside_a_sheet():
     "where the square is not, the volume is whole; the samples stay where they are"
     data = voxels(1, (4, 4, 4), (17 * i % 256 for i in range(64)))
-    alone = suite.picture(front_scene(volume(data)), size="24x24")
+    steps = ("--step", "0.5")
+    alone = suite.picture(front_scene(volume(data)), *steps, size="24x24")
     clear = "UnlitMaterial { emissiveColor 0 1 0 transparency 1 }"
-    both = suite.picture(front_scene(volume(data), at(0.15, two_sided(clear, 0.2))), size="24x24")
+    both = suite.picture(front_scene(volume(data), at(0.15, two_sided(clear, 0.2))), *steps, size="24x24")
     def difference(inside):
         return max(abs(alone.at(x, y)[i] - both.at(x, y)[i]) for x in range(24) for y in range(24)
                    for i in range(4) if inside == (8 < x < 15 and 8 < y < 15))
