@@ -161,5 +161,5 @@ check(re.search(r"surface-1: [1-9]\d* instructions, 0 fetches", text), "info cou
 text = plugray.expect(0, "info", "volume.x3dv").stdout
 check("PixelTexture3D at volume.x3dv:4:10: 2x2x2, 1 of uint8, 8 bytes, values 0 to 255" in text,
       "info tells size, type, bytes and values of volumes", text)
-check(re.search(r"volume-1: \d+ instructions, [1-3] fetches", text), "info counts fetches", text)
+check(re.search(r"volume-1: \d+ instructions, [1-9]\d* fetches", text), "info counts fetches", text)
 done()
