@@ -156,6 +156,16 @@ static bool has_walls_within(const plr_view *view, const plr_cast *cast) {
     return walls && cast->count > 1;
 }
 
+/* Below this errors were seen of functions that jump. */
+#define LEAST_BOUNDED (1.0 / 300)
+
+static bool are_tame(const plr_view *view, const plr_cast *cast) {
+    bool tame = true;
+    for (size_t i = 0; i < cast->count; i++)
+        tame = tame && view->volumes.volumes[cast->members[i]].table->tame;
+    return tame;
+}
+
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
     plr_plan *plan = &cast->plan;
@@ -185,11 +195,17 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     double error = plan->asked > 0 ? plan->asked : 1.0 / 255;
     plan->value = fmax(error, LEAST_ERROR);
     bool walls = has_walls_within(view, cast);
-    plan->bounded = early_end && !walls;
+    bool tame = are_tame(view, cast);
+    tame = tame && plan->value >= LEAST_BOUNDED;
+    plan->bounded = early_end && !walls && tame;
     plan->step = sqrt(3);
     cast->allowed = 0.75 * plan->value;
     plan->why =
-        walls ? "volumes are drawn together of which one has opaque values: the error is estimated"
+        !tame ? "a transfer function is nearly opaque or very steep somewhere: rays are cut as if "
+                "the "
+                "bound held, but the error is estimated"
+        : walls
+            ? "volumes are drawn together of which one has opaque values: the error is estimated"
         : early_end
             ? "in each cell of voxels the value is a cubic along the ray; it is cut until what "
               "extinction and colour can differ from their integrals keeps the error"

@@ -144,6 +144,14 @@ static double beside_wall(const plr_table *t, const float *texels, uint32_t coun
     return most > 0 ? most : PLR_MOST_DEPTH;
 }
 
+/* The mean over the two spans at a node. */
+static void mean_around(const plr_table *t, uint32_t i, double mean[4]) {
+    double width = 2.0 / (t->nodes - 1);
+    mean[3] = (t->depth[i + 1] - t->depth[i - 1]) / width;
+    for (int c = 0; c < 3; c++)
+        mean[c] = (t->color[i + 1][c] - t->color[i - 1][c]) / width;
+}
+
 /* What the texture holds: means between all pairs of nodes; colours times extinction, so that they
  * are weighted by it wherever they are interpolated. */
 static void fill(const plr_table *t, const float *texels, uint32_t count, float *out) {
@@ -155,6 +163,8 @@ static void fill(const plr_table *t, const float *texels, uint32_t count, float 
                 mean[3] = mean[3] < 1 ? extinction(mean[3]) : beside_wall(t, texels, count, i);
                 for (int c = 0; c < 3; c++)
                     mean[c] *= mean[3];
+                if (count > t->nodes && i > 0 && i + 1 < t->nodes && mean[3] < PLR_MOST_DEPTH)
+                    mean_around(t, i, mean); /* texels lie between nodes: none is to be missed */
             } else {
                 double width = (double)(j - i) / (t->nodes - 1);
                 mean[3] = (t->depth[j] - t->depth[i]) / width;
@@ -166,6 +176,11 @@ static void fill(const plr_table *t, const float *texels, uint32_t count, float 
                     out[4 * ((size_t)i * t->nodes + j) + (size_t)c] = (float)mean[c];
         }
 }
+
+/* Beyond, 32-bit values and nodes were seen to be too coarse: extinction (an opacity of 0.99) and
+ * the change of its slope. */
+#define MOST_EXTINCTION 4.6
+#define MOST_SLOPE 1e4
 
 /* Functions of the value whose slopes count: extinction, and colours times extinction, seen against
  * black and against white. */
@@ -241,7 +256,9 @@ static void join(bin *a, const bin *b) {
 
 /* For all pairs of bins what holds in them and between them. Nodes at the sides of a bin count in
  * both it and its neighbours. */
-static void fill_ranges(const plr_table *t, const float *texels, uint32_t count, float *out) {
+static void fill_ranges(const plr_table *t, const float *texels, uint32_t count, float *out,
+                        bool *tame) {
+    *tame = true;
     bin bins[PLR_TABLE_RANGES];
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
         bins[i] = empty_bin();
@@ -260,6 +277,8 @@ static void fill_ranges(const plr_table *t, const float *texels, uint32_t count,
                 change = fmax(change, all.colors[k][1] - all.colors[k][0]);
             for (int n = 0; n < SLOPES; n++)
                 slope = fmax(slope, all.slopes[n][1] - all.slopes[n][0]);
+            if (slope > MOST_SLOPE || all.extinction > MOST_EXTINCTION)
+                *tame = false;
             at[0] = (float)slope;
             at[1] = (float)all.extinction;
             at[2] = (float)change;
@@ -304,7 +323,7 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     fill_sums(t, texels, count, image.samples);
     t->sums = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
     image = make_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);
-    fill_ranges(t, texels, count, image.samples);
+    fill_ranges(t, texels, count, image.samples, &t->tame);
     t->ranges = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
     image = make_image(arena, t->nodes, t->nodes);

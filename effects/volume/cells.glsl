@@ -115,14 +115,17 @@ void sum_at(const in float value, out vec4 sum, out vec4 small, out vec4 density
     small = texelFetch(sums, ivec2(node, 3), 0) + beyond / float(nodes - 1) * (first + 0.5 * beyond * rise);
 }
 
-/* What lies, in the mean, between two values. Close to each other their integrals differ by rounding. */
+/* What lies, in the mean, between two values. Between two nodes extinction is a line, which has its mean in
+ * the middle; beyond, integrals differ by more than rounding. */
 vec4 exact_mean(const in float from, const in float to) {
     vec4 first, last, first_small, last_small, first_density, last_density;
     sum_at(from, first, first_small, first_density);
     sum_at(to, last, last_small, last_density);
     float apart = clamp(to, 0.0, 1.0) - clamp(from, 0.0, 1.0);
+    float last_node = float(textureSize(sums, 0).x - 1);
+    bool in_one = floor(clamp(from, 0.0, 1.0) * last_node) == floor(clamp(to, 0.0, 1.0) * last_node);
     vec4 mean = ((last - first) + (last_small - first_small)) / (apart == 0.0 ? 1.0 : apart);
-    return max(abs(apart) > 5.0e-4 ? mean : 0.5 * (first_density + last_density), 0.0);
+    return max(in_one || abs(apart) < 2.0e-6 ? 0.5 * (first_density + last_density) : mean, 0.0);
 }
 
 #if HAS_WALL

@@ -120,7 +120,8 @@ def programs():
                                       (WATCHER, volume(waves(), opacity_map(PEAK)))], False),
             ("a map after a style", [volume(waves(), composed("ShadedVolumeStyle { }",
                                                               opacity_map(PEAK)))], False)):
-        suite.equal(name, "lowest_bit" in program(*text), skips)
+        found = program(*text)
+        suite.equal(name, "lowest_bit" in found or "leaps" in found, skips)
 
 
 if __name__ == "__main__":
