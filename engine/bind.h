@@ -84,7 +84,7 @@ typedef struct plr_volume_state {
     plr_texture *sums;      /* the same from 0 on */
     plr_texture *ranges;    /* bounds of it */
     float seen[2];          /* outside of this open interval the table has nothing */
-    size_t full_blocks; /* where it does */
+    size_t full_blocks;     /* where it does */
     plr_texture *leaps;
 } plr_volume_state;
 

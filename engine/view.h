@@ -54,7 +54,7 @@ typedef struct plr_kept_volume {
     bool placed;           /* the file says where it is and how large: */
     plr_matrix place;
     double dimensions[3];
-    uint64_t hash; /* of the voxels */
+    uint64_t hash;                   /* of the voxels */
     const struct plr_blocks *blocks; /* of voxels of one component that are cast as a whole */
 } plr_kept_volume;
 
@@ -178,12 +178,12 @@ typedef enum plr_slot_kind {
 } plr_slot_kind;
 
 struct plr_view {
-    plr_arena arena;     /* of worlds: renewed when the scene changes */
-    plr_arena lasting;   /* of what is kept then: textures, programs, sources */
-    uint64_t revision;   /* of the scene, when its worlds were made */
-    int asked_dialect;   /* as in plr_view_desc, which then has what came of it */
-    bool made;           /* once; from then on it is updated */
-    bool general;        /* its worlds are made of general programs (engine/general.h) */
+    plr_arena arena;   /* of worlds: renewed when the scene changes */
+    plr_arena lasting; /* of what is kept then: textures, programs, sources */
+    uint64_t revision; /* of the scene, when its worlds were made */
+    int asked_dialect; /* as in plr_view_desc, which then has what came of it */
+    bool made;         /* once; from then on it is updated */
+    bool general;      /* its worlds are made of general programs (engine/general.h) */
     struct {
         bool asked, known; /* its general programs were asked for; and are built */
         bool no_tables;    /* those are made that do without (engine/volume_plan.c) */
@@ -191,8 +191,8 @@ struct plr_view {
         size_t slots[PLR_SLOT_KINDS], most[PLR_SLOT_KINDS]; /* see engine/general.h */
     } general_state;
     plr_matrix eye_to_world; /* of the last look at the scene */
-    plr_viewpoint first; /* where the first look at a time comes from */
-    plr_engine *engine;  /* NULL: nothing is drawn, only checked */
+    plr_viewpoint first;     /* where the first look at a time comes from */
+    plr_engine *engine;      /* NULL: nothing is drawn, only checked */
     plr_catalog *own_catalog;
     plr_scene *scene;
     plr_view_desc desc;

@@ -11,7 +11,7 @@ typedef struct plr_table {
     double *depth;      /* at each node: extinction integrated from 0 on, per reference length */
     double (*color)[3]; /* the same times colour */
     uint32_t *visible;  /* of how many of the spans before a node anything can be seen */
-    bool tame; /* nowhere nearly opaque, and no steeper than bounds hold for */
+    bool tame;          /* nowhere nearly opaque, and no steeper than bounds hold for */
     int walls;          /* ranges of values that are opaque */
     float wall[2];      /* from the least to the greatest of these */
     float wall_colors[2][4];

@@ -72,7 +72,7 @@ typedef enum plr_method {
     PLR_METHOD_AUTO,          /* the planner's choice; with fixed steps: midpoint */
     PLR_METHOD_MIDPOINT,      /* one sample in the middle of each step */
     PLR_METHOD_PREINTEGRATED, /* between two samples the value is linear: integrals over it */
-    PLR_METHOD_CELLS          /* in each cell of voxels the value is a cubic: cut until it is exact */
+    PLR_METHOD_CELLS /* in each cell of voxels the value is a cubic: cut until it is exact */
 } plr_method;
 
 typedef struct plr_view_desc {
@@ -80,7 +80,7 @@ typedef struct plr_view_desc {
     const char *viewpoint;
     double time; /* seconds after the scene was loaded */
     double
-        aspect;  /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
+        aspect; /* width / height of the pictures, for what sees whether it is in sight; 0: 4/3 */
     /* How far pictures may be from the true ones in any channel of any pixel; 0: 1/255. What comes
      * of it is in plr_view_get_plan. */
     double error;
@@ -266,13 +266,13 @@ typedef struct plr_choice {
 
 /* How the volumes of a view are sampled, and what that means for the error of pictures. */
 typedef struct plr_plan {
-    double asked;    /* the error; 0: fixed steps were asked for */
-    bool bounded;    /* proven; else estimated */
-    double value;    /* the greatest error of a channel; of fixed steps unknown: negative */
+    double asked; /* the error; 0: fixed steps were asked for */
+    bool bounded; /* proven; else estimated */
+    double value; /* the greatest error of a channel; of fixed steps unknown: negative */
     plr_method method;
-    double step;     /* voxels; of PLR_METHOD_CELLS the longest piece */
-    bool leaps;      /* over blocks where nothing can be seen */
-    const char *why; /* in words, one sentence; owned by the view, until it is updated */
+    double step;               /* voxels; of PLR_METHOD_CELLS the longest piece */
+    bool leaps;                /* over blocks where nothing can be seen */
+    const char *why;           /* in words, one sentence; owned by the view, until it is updated */
     const plr_choice *choices; /* all, likewise */
     size_t choice_count;
 } plr_plan;
