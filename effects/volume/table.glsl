@@ -17,7 +17,7 @@ vec3 cell_origin;
 vec3 cell_direction;
 vec3 cell_inverse;
 #if !CELLS
-vec3 table_place; /* from values to texture coordinates of the table: scale, shift, and nothing */
+vec2 table_place; /* from values to texture coordinates of the table: scale and shift */
 #endif
 float depth_ratio; /* from lengths of the ray to reference lengths */
 
@@ -31,7 +31,7 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     cell_direction = ray_direction * count;
 #if !CELLS
     float nodes = float(textureSize(integrals, 0).x);
-    table_place = vec3((nodes - 1.0) / nodes, 0.5 / nodes, 0.0);
+    table_place = vec2((nodes - 1.0) / nodes, 0.5 / nodes);
 #endif
     depth_ratio = ray_speed / referenceLength;
     cell_inverse = 1.0 / mix(cell_direction, vec3(1.0e-30), equal(cell_direction, vec3(0.0)));
