@@ -65,9 +65,12 @@ typedef struct plr_volume_state {
     double reference; /* reference length of opacity */
     double step;      /* sample distance, own coordinates */
     size_t index;
-    bool authors_see_all; /* an effect of an author needs every sample */
-    bool general;         /* of a general world: what is switched off counts, too */
-    bool hidden;          /* all its styles are switched off */
+    /* What effects of authors do with its samples (volume_skip.c). */
+    bool authors_act;         /* some effect does anything */
+    bool authors_colour_only; /* all promise that they change colours alone */
+    bool authors_see_all;     /* some effect may make visible what is clear: it needs all samples */
+    bool general;             /* of a general world: what is switched off counts, too */
+    bool hidden;              /* all its styles are switched off */
     plr_grid *grid;
     plr_texture *labels; /* segment numbers; or NULL */
     plr_volume_kind kind;

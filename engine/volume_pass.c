@@ -73,7 +73,11 @@ static void note_calls(plr_volume_pass *pass, const plr_program *program, size_t
         if (effect == PLR_NO_EFFECT || recipe->effects.items[effect].builtin)
             continue;
         size_t volume = recipe->bindings.items[effect].volume;
-        plr_volume_note_call(pass, info->name, volume);
+        /* what takes the place of others changes more than what it is given */
+        plr_promises promises = {0};
+        if (recipe->effects.items[effect].placement != PLR_REPLACE)
+            promises = plr_program_promises(program, effect);
+        plr_volume_note_call(pass, info->name, volume, promises);
         use->accumulates = use->accumulates || composite || ends;
         if (composite && volume != PLR_NO_EFFECT)
             use->layers[volume] = true;
@@ -87,7 +91,8 @@ static ray_use find_ray_use(plr_view *view, plr_cast *cast) {
         /* what stands at a style, or takes its place, needs that style */
         const plr_effect *effect = &cast->pass.recipe.effects.items[i];
         if (!effect->builtin && effect->target && *effect->target)
-            plr_volume_note_call(&view->volumes, "", cast->pass.recipe.bindings.items[i].volume);
+            plr_volume_note_call(&view->volumes, "", cast->pass.recipe.bindings.items[i].volume,
+                                 (plr_promises){0});
     }
     for (size_t i = 0; program && i < plr_program_plug_count(program); i++)
         note_calls(&view->volumes, program, i, &cast->pass.recipe, &use);

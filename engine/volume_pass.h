@@ -51,8 +51,9 @@ void plr_volume_order(plr_view *view, size_t *members, size_t count);
 /* ---- Programs (volume_recipe.c) ---- */
 
 /* Notes that an effect of an author is called at a plug, of a volume or (PLR_NO_EFFECT) of all:
- * what it does with samples nobody knows (volume_skip.c). */
-void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume);
+ * what it does with samples nobody knows, unless it promises something (volume_skip.c). */
+void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume,
+                          plr_promises promises);
 /* Whether samples that the leading opacity maps of a volume make clear stay so in its styles
  * (volume_skip.c). */
 bool plr_volume_keeps_clear(const plr_volume_state *state);

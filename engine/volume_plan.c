@@ -100,8 +100,8 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
     map_search search = {.general = state->general, .left = MOST_LOOKS};
     if (state->kind != PLR_VOLUME_FILLED || styles->type != PLR_SFNODE || !state->blocks ||
-        (state->general && view->general_state.no_tables) || state->authors_see_all ||
-        state->labels || !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
+        (state->general && view->general_state.no_tables) || state->authors_act || state->labels ||
+        !find_map(styles->count ? styles->value.nodes[0] : NULL, true, &search))
         return false;
     if (plr_pass_fog(view, view->volumes.leaves[state->index]->scope)->node)
         return false;
@@ -224,11 +224,26 @@ static const char *storage_words(const plr_view *view, const plr_cast *cast) {
                   : "16-bit texels: drivers may filter 8-bit ones in 8-bit arithmetic";
 }
 
-static plr_choice say_leaps(plr_view *view, const plr_cast *cast) {
+/* Where there are no blocks to leap over. */
+static plr_choice say_skips(const plr_view *view, const plr_cast *cast, bool early_end) {
+    bool authors = false;
+    for (size_t i = 0; i < cast->count; i++)
+        authors = authors || view->volumes.volumes[cast->members[i]].authors_see_all;
+    if (cast->plan.method == PLR_METHOD_MIDPOINT && plr_cast_skips(view, cast, early_end))
+        return (plr_choice){"skipping", "of clear samples",
+                            "rays look ahead for what opacity maps do not make clear; the rest has "
+                            "no styles, and pictures stay the same"};
+    return authors ? (plr_choice){"skipping", "none",
+                                  "an effect of an author may make something of what is clear; "
+                                  "PLUG-PROMISE: keeps-transparent would say that it does not"}
+                   : (plr_choice){"skipping", "none by blocks",
+                                  "blocks serve where one transfer function makes a volume visible "
+                                  "and nobody asks for single samples"};
+}
+
+static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end) {
     if (!cast->plan.leaps)
-        return (plr_choice){"skipping", "none by blocks",
-                            "blocks serve where one transfer function makes a volume visible and "
-                            "nobody asks for single samples"};
+        return say_skips(view, cast, early_end);
     size_t full = 0, all = 0;
     for (size_t i = 0; i < cast->count; i++) {
         const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
@@ -273,7 +288,7 @@ static void say(plr_view *view, plr_cast *cast, bool early_end) {
     plr_choice *choices = PLR_NEW_ARRAY(&view->arena, CHOICES, plr_choice);
     choices[0] = say_method(view, &cast->plan);
     choices[1] = say_error(view, &cast->plan);
-    choices[2] = say_leaps(view, cast);
+    choices[2] = say_leaps(view, cast, early_end);
     choices[3] = (plr_choice){"early termination", early_end ? "where it can be" : "off",
                               early_end ? "rays end where less than an eighth of the error shines "
                                           "through"

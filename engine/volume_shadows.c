@@ -183,17 +183,9 @@ void plr_recipe_volume_shadows(plr_view *view, plr_recipe *recipe, bool skips_cl
 
 /* ---- Samples that cannot be seen ---- */
 
-static bool has_effects(const plr_leaf *leaf) {
-    const plr_field *own = plr_node_field(leaf->node, "effects");
-    bool any = own && own->count;
-    for (const plr_scope *scope = leaf->scope; scope && !any; scope = scope->outer)
-        any = scope->effects.count > 0;
-    return any;
-}
-
 /* The colour of what is transparent matters to what mixes colours, and nobody knows what authors do
  * with it. */
 bool plr_volume_skips_clear(const plr_view *view, size_t volume) {
-    return !has_effects(view->volumes.leaves[volume]) &&
+    return !view->volumes.volumes[volume].authors_see_all &&
            !any_style_of(&view->volumes.volumes[volume], blends, view->general);
 }

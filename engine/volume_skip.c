@@ -53,14 +53,30 @@ bool plr_volume_keeps_clear(const plr_volume_state *state) {
                        &left);
 }
 
-void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume) {
+static bool is_among(const char *plug, const char *const *plugs, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(plug, plugs[i]) == 0)
+            return true;
+    return false;
+}
+
+void plr_volume_note_call(plr_volume_pass *pass, const char *plug, size_t volume,
+                          plr_promises promises) {
     static const char *const apart[] = {"light_scale", "volume_ray", "volume_ray_end"};
-    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
-        if (strcmp(plug, apart[i]) == 0)
-            return;
-    for (size_t i = 0; i < pass->count; i++)
-        if (volume == PLR_NO_EFFECT || volume == i)
-            pass->volumes[i].authors_see_all = true;
+    static const char *const colours[] = {"volume_classify", "volume_shade"};
+    if (is_among(plug, apart, sizeof apart / sizeof *apart))
+        return;
+    if (!is_among(plug, colours, sizeof colours / sizeof *colours))
+        promises = (plr_promises){0}; /* they are about what is done to a sample's colour */
+    for (size_t i = 0; i < pass->count; i++) {
+        plr_volume_state *state = &pass->volumes[i];
+        if (volume != PLR_NO_EFFECT && volume != i)
+            continue;
+        state->authors_colour_only =
+            promises.colour_only && (!state->authors_act || state->authors_colour_only);
+        state->authors_see_all |= !promises.keeps_transparent;
+        state->authors_act = true;
+    }
 }
 
 bool plr_cast_skips(const plr_view *view, const plr_cast *cast, bool early_end) {

@@ -404,6 +404,7 @@ typedef struct evaluator {
     const plr_directive *directives;
     uint32_t *next;
     uint8_t *kept;
+    uint32_t *skipped;
     PLR_LIST(frame) frames;
     uint32_t keeping; /* frames that are kept */
 } evaluator;
@@ -454,12 +455,14 @@ static value evaluate_branch(evaluator *v, const plr_directive *directive) {
 static uint32_t skip_branch(evaluator *v, uint32_t i) {
     uint32_t next = v->directives[i].next;
     v->next[i] = v->directives[next].token;
+    v->skipped[i] = next;
     return next;
 }
 
 static uint32_t leave_group(evaluator *v, uint32_t i) {
     frame *f = &v->frames.items[v->frames.count - 1];
     uint32_t endif = f->endif;
+    v->skipped[i] = endif;
     if (f->mode == MODE_KEPT_LAST) {
         v->next[i] = v->directives[endif].token;
         return endif; /* which is printed */
@@ -516,7 +519,8 @@ void plr_evaluate(plr_linking *l, plr_unit *unit) {
     if (lexed->conditional) {
         v.next = PLR_NEW_ARRAY(l->pass, count, uint32_t);
         v.kept = PLR_NEW_ARRAY(l->pass, count, uint8_t);
-        unit->own_activity = (plr_activity){v.next, v.kept};
+        v.skipped = PLR_NEW_ARRAY(l->pass, count, uint32_t);
+        unit->own_activity = (plr_activity){v.next, v.kept, v.skipped};
         unit->activity = &unit->own_activity;
     }
     for (uint32_t i = 0; i < count;) {

@@ -123,6 +123,8 @@ static void add_effect(plr_linking *l, uint32_t e) {
         good &= take_text(l, scope);
         good &= plr_find_functions(l, scope);
     }
+    for (unsigned s = 0; s < PLR_STAGE_COUNT && good; s++)
+        plr_take_promises(l, plr_scope_of(l, (plr_stage)s, e));
     if (good)
         good = plr_place_functions(l, e);
     for (unsigned s = 0; s < PLR_STAGE_COUNT && good; s++)
@@ -175,6 +177,7 @@ void plr_add_effects(plr_linking *l) {
         plr_scope *library = plr_scope_of(l, (plr_stage)s, PLR_SCOPE_LIBRARY(l));
         bool good = take_text(l, base);
         take_text(l, library);
+        plr_take_promises(l, base);
         plr_define_names(l, library);
         good &= plr_define_names(l, base);
         if (s == PLR_GEOMETRY && plr_entry(l, PLR_GEOMETRY))

@@ -52,7 +52,8 @@ typedef struct plr_item {
 typedef struct plr_activity {
     /* By directive: the token at which the text goes on, and whether the line itself is kept. */
     const uint32_t *next;
-    const uint8_t *kept; /* plr_kept */
+    const uint8_t *kept;     /* plr_kept */
+    const uint32_t *skipped; /* by directive: the one up to which text is left out; 0: none is */
 } plr_activity;
 
 typedef enum plr_kept {

@@ -355,6 +355,18 @@ static void lex_plug(lexer *lx, uint32_t begin, uint32_t inner_end, uint32_t end
     *PLR_PUSH(lx->arena, &out->plugs) = plug;
 }
 
+/* A promise, the scan standing after "PLUG-PROMISE". No token: it may stand anywhere. */
+static void lex_promise(lexer *lx, uint32_t begin, uint32_t limit, bool block) {
+    skip_blank(lx, limit);
+    bool colon = skip_text(lx, limit, ":");
+    *PLR_PUSH(lx->arena, &lx->out->promises) = (plr_promise_comment){
+        begin, lx->at, limit,
+        !block          ? "a promise stands in a comment of the other kind, /* ... */"
+        : lx->in_define ? "a PLUG-PROMISE comment in a preprocessor line is no promise"
+        : !colon        ? "what is promised stands behind a colon: /* PLUG-PROMISE: ... */"
+                        : NULL};
+}
+
 /* A block comment from `begin` to `end`: plugs and PLUG-DECLARATIONS become tokens. */
 static void lex_magic(lexer *lx, uint32_t begin, uint32_t end) {
     uint32_t limit = end - 2;
@@ -362,8 +374,11 @@ static void lex_magic(lexer *lx, uint32_t begin, uint32_t end) {
     skip_blank(lx, limit);
     if (skip_text(lx, limit, "PLUG")) {
         bool declarations = skip_text(lx, limit, "-DECLARATIONS");
+        bool promise = !declarations && skip_text(lx, limit, "-PROMISE");
         skip_blank(lx, limit);
-        if (declarations && lx->at == limit) {
+        if (promise) {
+            lex_promise(lx, begin, limit, true);
+        } else if (declarations && lx->at == limit) {
             if (!lx->in_define) {
                 bool line_start = lx->line_start;
                 push_token(lx, PLR_T_DECLARATIONS, begin, 0);
@@ -384,11 +399,19 @@ static void lex_magic(lexer *lx, uint32_t begin, uint32_t end) {
 /* ---- Comments and directives -------------------------------------------------------------------
  */
 
-static void skip_line_comment(lexer *lx) {
+static void skip_line_comment(lexer *lx, uint32_t begin) {
+    uint32_t inner = lx->at;
     while (lx->at < lx->length && class_at(lx, lx->at) != C_NEWLINE) {
         uint32_t splice = splice_length(lx, lx->at);
         lx->at += splice ? splice : 1;
     }
+    uint32_t end = lx->at;
+    lx->at = inner;
+    while (lx->at < end && class_at(lx, lx->at) == C_SPACE)
+        lx->at++;
+    if (skip_text(lx, end, "PLUG-PROMISE"))
+        lex_promise(lx, begin, end, false);
+    lx->at = end;
     lx->gap = true;
 }
 
@@ -413,7 +436,7 @@ static bool lex_comment(lexer *lx) {
         return false;
     lx->at = second + 1;
     if (lx->text[second] == '/') {
-        skip_line_comment(lx);
+        skip_line_comment(lx, begin);
         return true;
     }
     uint32_t end = comment_end(lx, second + 1);

@@ -93,6 +93,13 @@ typedef struct plr_plug {
     uint32_t text_begin, text_end; /* the lists as written */
 } plr_plug;
 
+/* A PLUG-PROMISE comment; what it says is read by each link that uses it (promise.c). */
+typedef struct plr_promise_comment {
+    uint32_t offset;        /* of the comment */
+    uint32_t words, end;    /* what stands behind its colon, up to the comment's end */
+    const char *counts_not; /* why it cannot count; NULL: it can */
+} plr_promise_comment;
+
 /* What was wrong with a text, at an offset. */
 typedef struct plr_fault {
     plr_code code;
@@ -114,6 +121,7 @@ typedef struct plr_lexed {
     PLR_LIST(plr_directive) directives;
     PLR_LIST(plr_plug) plugs;
     PLR_LIST(plr_list) lists;
+    PLR_LIST(plr_promise_comment) promises;
     PLR_LIST(plr_fault) faults; /* errors: the unit cannot be used */
     PLR_LIST(plr_fault) warnings;
     bool conditional; /* has #if and the like */

@@ -135,6 +135,8 @@ struct plr_unit {
     uint8_t *actions;     /* by local identifier: plr_action */
     plr_socket **sockets; /* by plug of the source */
     plr_function *functions, *last_function;
+    plr_promises promises;                                  /* promise.c */
+    const plr_promise_comment *promised[PLR_PROMISE_KINDS]; /* the comments that do */
 };
 
 /* What an identifier of a unit becomes. */
@@ -408,11 +410,17 @@ void plr_leave_out(plr_linking *l, uint32_t effect, const plr_message *message);
 void plr_keep_faults(plr_linking *l, plr_stage stage);
 void plr_add_effects(plr_linking *l);
 
+/* promise.c: what units promise. Reads the comments of a scope whose functions are known. */
+void plr_take_promises(plr_linking *l, plr_scope *scope);
+
 /* messages.c */
 void plr_say(plr_linking *l, plr_code code, plr_place place, const char *format, ...)
     PLR_PRINTF(4, 5);
 void plr_say_note(plr_linking *l, plr_place place, const char *format, ...) PLR_PRINTF(3, 4);
 const char *plr_gid_text(plr_linking *l, uint32_t gid);
+/* "; did you mean ...": the nearest of some words; "" if none is near. */
+const char *plr_nearest_words(plr_linking *l, const char *text, size_t length,
+                              const char *const *words, size_t count);
 /* An effect for messages: its name, or its number. */
 const char *plr_effect_text(plr_linking *l, uint32_t effect);
 void plr_say_unplaced(plr_linking *l, const plr_unit *unit, plr_function *function);

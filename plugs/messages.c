@@ -116,6 +116,15 @@ static const char *nearest_text(plr_linking *l, const nearest *n) {
     return text;
 }
 
+const char *plr_nearest_words(plr_linking *l, const char *text, size_t length,
+                              const char *const *words, size_t count) {
+    nearest n = {.count = 0};
+    plr_ident wanted = {.text = text, .length = (uint32_t)length};
+    for (size_t i = 0; i < count; i++)
+        consider(&n, &wanted, words[i], (uint32_t)strlen(words[i]));
+    return nearest_text(l, &n);
+}
+
 static const char *list_nearest(plr_linking *l, const plr_unit *unit, uint32_t plug) {
     nearest n = {.count = 0};
     const plr_ident *wanted = &l->idents.items[plug];

@@ -142,6 +142,7 @@ static void pack_source(packer *p, plr_source *source) {
     PACK(p, &lexed->directives);
     PACK(p, &lexed->plugs);
     PACK(p, &lexed->lists);
+    PACK(p, &lexed->promises);
     PACK(p, &lexed->faults);
     PACK(p, &lexed->warnings);
     plr_cut *cut = &source->cut;

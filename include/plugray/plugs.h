@@ -170,6 +170,22 @@ PLR_API bool plr_program_is_active(const plr_program *program, size_t effect);
 
 #define PLR_NO_EFFECT ((size_t)-1)
 
+/* What comments "PLUG-PROMISE: colour-only keeps-transparent lipschitz 12.5" of an effect's units
+ * promise of each of its plug functions that change a colour, whatever the input. The linker
+ * believes them. */
+typedef struct plr_promises {
+    bool colour_only;       /* alpha stays as it is */
+    bool keeps_transparent; /* alpha 0 stays 0; colour_only has it, too */
+    double lipschitz; /* X: no component of the premultiplied colour, or alpha, changes by more than
+                       * so many times the greatest change of the components of the colour before
+                       * and of the sample's value, all else being equal; 0: none is promised */
+} plr_promises;
+
+/* What all fragment units of the effect promise that have plug functions in active text: nothing
+ * where one of them promises nothing, the greatest `lipschitz`. Nothing of an effect that is faulty
+ * or left out. */
+PLR_API plr_promises plr_program_promises(const plr_program *program, size_t effect);
+
 /* What stands at a position of the program. */
 typedef struct plr_mapped {
     plr_place place;          /* the author's; file NULL for text that the linker made itself */
@@ -235,6 +251,18 @@ PLR_API const plr_plug_info *plr_program_plug(const plr_program *program, size_t
 /* The effect called by the call-th socket call of that plug, and the place of its function. */
 PLR_API size_t plr_program_plug_call(const plr_program *program, size_t plug, size_t call,
                                      plr_place *function);
+
+typedef enum plr_promise_kind {
+    PLR_COLOUR_ONLY,
+    PLR_KEEPS_TRANSPARENT,
+    PLR_LIPSCHITZ,
+    PLR_PROMISE_KINDS
+} plr_promise_kind;
+
+/* Where the comment stands by which the unit of the function that is called there promises that;
+ * false: it does not. */
+PLR_API bool plr_program_promise_place(const plr_program *program, size_t plug, size_t call,
+                                       plr_promise_kind kind, plr_place *place);
 
 /* A call that the program makes. */
 typedef struct plr_call_info {

@@ -10,6 +10,8 @@ suite = Suite()
 
 # it does nothing, but nobody knows: with it every sample is styled
 WATCHER = effect("void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color.a += 0.0; }")
+SHINE = """%s void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) {
+    color.rgb = mix(color.rgb, s.position, 0.5);%s }"""
 PEAK = [0x80402000, 0x80402000, 0xFF000060, 0x00FF0000, 0x0000FF00]
 SIDE = 5
 
@@ -98,6 +100,19 @@ def mixed():
     same("one of them watched", [half, turned])
 
 
+@suite.case
+def promised():
+    "an effect that promises to keep clear what is clear sees only what can be seen: the same picture"
+    for name, promise, more in (("colour-only", "colour-only", ""), ("keeps-transparent", "keeps-transparent",
+                                                                     " color.a *= 0.75;")):
+        parts = [front_scene(volume(waves(), opacity_map(PEAK), effects=effect(
+            SHINE % ("/* PLUG-PROMISE: %s */" % promise if kept else "", more)))) for kept in (True, False)]
+        pictures = [suite.picture(part, "--step", "0.1", size="12x12").values for part in parts]
+        suite.check(f"{name}: not all is clear", max(pictures[0]) > 0.01, max(pictures[0]))
+        worst = max(abs(a - b) for a, b in zip(*pictures))
+        suite.check(f"{name}: the same picture", worst < 2e-6, worst)
+
+
 def program(*parts):
     result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": front_scene(*parts)})
     folder = os.path.join(result.folder, "out")
@@ -111,10 +126,28 @@ def programs():
     ray = effect("void PLUG_volume_ray(inout float t_enter, inout float t_exit, const in vec3 origin_eye, "
                  "const in vec3 direction_eye) { t_enter += 0.25; }")
     sampling = effect("void PLUG_volume_sample(inout VolumeSample s) { s.value.r += 0.5; }")
+    def promising(words, around="%s\n", more="", fields=""):
+        comment = around % f"/* PLUG-PROMISE: {words} */"
+        return volume(waves(), opacity_map(PEAK), effects=effect(SHINE % (comment, ""), fields=fields) + more)
+
     for name, text, skips in (
             ("a volume", [volume(waves(), opacity_map(PEAK))], True),
             ("an effect on the ray", [volume(waves(), opacity_map(PEAK), effects=ray)], True),
             ("an effect on styles", [volume(waves(), opacity_map(PEAK), effects=WATCHER)], False),
+            ("a promise about colours", [promising("colour-only")], True),
+            ("a promise about what is clear", [promising("keeps-transparent")], True),
+            ("another promise", [promising("lipschitz 2")], False),
+            ("a promise that is not active", [promising("colour-only", "#if 0\n%s\n#endif\n")], False),
+            ("a promise of one of two effects", [promising("colour-only", more=WATCHER)], False),
+            ("a promise of one of two units", [volume(waves(), opacity_map(PEAK), effects="""Effect {
+                language "GLSL" parts [ EffectPart { type "FRAGMENT" url "data:text/plain,/* PLUG-PROMISE: colour-only */
+                void PLUG_volume_shade(inout vec4 c, const in VolumeSample s) { c.r = 1.0; }" }
+                EffectPart { type "FRAGMENT" url "data:text/plain,
+                void PLUG_volume_shade(inout vec4 c, const in VolumeSample s) { c.a = 1.0; }" } ] }""")], False),
+            ("a promise of what replaces the styles", [promising("colour-only", fields='placement "REPLACE"')], False),
+            ("a promise of what changes samples", [volume(waves(), opacity_map(PEAK), effects=effect(
+                "/* PLUG-PROMISE: colour-only */ void PLUG_volume_sample(inout VolumeSample s) { s.value.r += 0.5; }"))],
+             False),
             ("an effect on samples", [volume(waves(), opacity_map(PEAK), effects=sampling)], False),
             ("an effect of a group", ["Group { children [ %s %s ] }" %
                                       (WATCHER, volume(waves(), opacity_map(PEAK)))], False),

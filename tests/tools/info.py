@@ -223,6 +223,17 @@ check_equal({f["sampler"]: f["count"] for f in program["fetched"]},
             {"voxels": 4, "leaps": 1, "ranges": 1, "sums": 2}, "a cubic in a cell, what bounds it, and its integrals")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
 
+def skipping(promise):
+    style = "ComposedVolumeStyle { renderStyle [ OpacityMapVolumeStyle { } ShadedVolumeStyle { } ] }"
+    result, _ = info(scene("v.nrrd", style + '''
+        effects Effect { parts EffectPart { type "FRAGMENT" url "data:text/plain,%s
+        void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color.r = 1.0; }" } }''' % promise))
+    return [c["chosen"] for c in result["plan"] if c["about"] == "skipping"]
+
+
+check_equal(skipping(""), ["none"], "an effect of an author ends skipping")
+check_equal(skipping("/* PLUG-PROMISE: colour-only */"), ["of clear samples"], "unless it promises not to need it")
+
 SHADED = """ComposedVolumeStyle { renderStyle [
     OpacityMapVolumeStyle { }
     ShadedVolumeStyle { lighting TRUE } ] }"""
