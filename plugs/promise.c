@@ -1,7 +1,7 @@
 /* What authors promise of their plug functions: comments "PLUG-PROMISE: word word number". */
 #include "plugs/program.h"
 
-#include <math.h>
+#include <float.h>
 #include <string.h>
 
 enum {
@@ -145,8 +145,11 @@ static double read_number(const word *w) {
     exponent -= places;
     if (!digits || *text || w->length > MOST_WORD)
         return 0;
-    number *= pow(10, exponent); /* finite powers: fewer places than a word has letters */
-    return isfinite(number) && number > 0 ? number : 0;
+    for (; exponent > 0; exponent--)
+        number *= 10;
+    for (; exponent < 0; exponent++)
+        number /= 10;
+    return number > 0 && number <= DBL_MAX ? number : 0;
 }
 
 static promise_word find_word(const word *w) {
@@ -256,6 +259,13 @@ bool plr_program_promise_place(const plr_program *program, size_t plug, size_t c
     return comment != NULL;
 }
 
+static plr_promises both(const plr_promises *a, const plr_promises *b) {
+    double most = a->lipschitz > b->lipschitz ? a->lipschitz : b->lipschitz;
+    return (plr_promises){.colour_only = a->colour_only && b->colour_only,
+                          .keeps_transparent = a->keeps_transparent && b->keeps_transparent,
+                          .lipschitz = a->lipschitz > 0 && b->lipschitz > 0 ? most : 0};
+}
+
 plr_promises plr_program_promises(const plr_program *program, size_t effect) {
     plr_promises all = {false, false, 0};
     const plr_linking *l = &program->linking;
@@ -267,12 +277,7 @@ plr_promises plr_program_promises(const plr_program *program, size_t effect) {
         const plr_promises *one = &scope->units[u].promises;
         if (!scope->units[u].functions)
             continue;
-        all = first ? *one
-                    : (plr_promises){all.colour_only && one->colour_only,
-                                     all.keeps_transparent && one->keeps_transparent,
-                                     all.lipschitz > 0 && one->lipschitz > 0
-                                         ? fmax(all.lipschitz, one->lipschitz)
-                                         : 0};
+        all = first ? *one : both(&all, one);
         first = false;
     }
     return all;
