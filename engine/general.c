@@ -1,6 +1,7 @@
 #include "engine/general.h"
 
 #include "engine/frame.h"
+#include "engine/pilot.h"
 #include "engine/state.h"
 #include "engine/update.h"
 
@@ -180,5 +181,7 @@ size_t plr_view_build(plr_view *view, double wait_ms) {
         left = build(view, wait_ms);
     else
         left = SIZE_MAX;
+    if (!left)
+        plr_pilot_rest(view);
     return left;
 }

@@ -8,6 +8,7 @@
 #include "engine/gpu_timer.h"
 #include "engine/ignored.h"
 #include "engine/pick.h"
+#include "engine/pilot.h"
 #include "engine/state.h"
 #include "engine/targets.h"
 #include "engine/unreached.h"
@@ -141,6 +142,7 @@ void plr_view_destroy(plr_view **view) {
     plr_world_finish(v);
     if (v->engine && v->color_only) {
         plr_framebuffer_destroy(&v->framebuffer);
+        plr_pilot_finish(v);
         plr_spare_depths_destroy(&v->spare);
         v->engine->gl.DeleteFramebuffers(1, &v->color_only);
         v->engine->gl.DeleteVertexArrays(1, &v->empty_vertex_array);
@@ -188,8 +190,11 @@ static bool draw_samples(plr_view *view, const plr_draw_desc *desc, plr_picture 
     bool timed = plr_gpu_timer_create(&timer, gl);
     if (timed)
         plr_gpu_timer_start(&timer, gl);
-    if (fine)
+    if (fine) {
         plr_targets_draw(view, NULL);
+        plan(view, desc, plr_frame_reversed(view), &frame);
+        plr_pilot_fly(view, &frame, NULL);
+    }
     for (int sample = 0; fine && sample < samples; sample++) {
         plan(view, desc, plr_frame_reversed(view), &frame);
         plr_frame_jitter(&frame, sample, samples);
@@ -283,6 +288,7 @@ bool plr_view_draw_here(plr_view *view, const double *projection, const double *
         matrix_from(&frame.projection, projection);
         matrix_from(&frame.view, camera);
         plr_targets_draw(view, &frame);
+        plr_pilot_fly(view, &frame, &frame);
         plr_gl_state_restore(gl, &state);
         double depths[2];
         plr_surfaces_depths(view, &frame.view, depths); /* sorts for the host's camera */

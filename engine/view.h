@@ -26,6 +26,15 @@ typedef struct plr_pass {
     plr_slots slots;
 } plr_pass;
 
+/* What is said of a cast whose steps pilots chose (engine/pilot.h). */
+typedef struct plr_piloted {
+    double step, allowed; /* as planned; 0: not looked at yet */
+    const char *why;
+    bool applied; /* what was measured */
+    plr_choice *choices;
+    char words[640], method[704], error[128];
+} plr_piloted;
+
 /* Volumes that are cast together, mixed where they overlap. */
 typedef struct plr_cast {
     plr_pass pass;
@@ -42,6 +51,8 @@ typedef struct plr_cast {
     bool everywhere;          /* an author draws where no volume is, too */
     plr_plan plan;            /* how rays are integrated */
     double allowed;           /* error of the integral along a ray, of PLR_METHOD_CELLS */
+    bool early_end;           /* rays may end early, and be cut into slabs */
+    plr_piloted *piloted;     /* NULL: pilots have nothing to do with it */
 } plr_cast;
 
 /* Voxels that outlive a change of the scene. */
@@ -177,6 +188,24 @@ typedef enum plr_slot_kind {
     PLR_SLOT_KINDS
 } plr_slot_kind;
 
+#define PLR_PILOT_RUNGS 5
+#define PLR_PILOT_WIDTH 49
+#define PLR_PILOT_HEIGHT 47
+
+/* What pilot drawings found, and of which frame. */
+typedef struct plr_pilot {
+    plr_framebuffer framebuffer;
+    GLuint color_only;
+    int rung;     /* of the ladder; -1: there is none that can be drawn */
+    double value; /* the estimate of the error */
+    int drawings;
+    bool known;
+    uint64_t revision; /* of the view's worlds */
+    double time;
+    plr_matrix projection, view;
+    plr_frame last; /* that was drawn, of views that are interactive */
+} plr_pilot;
+
 struct plr_view {
     plr_arena arena;   /* of worlds: renewed when the scene changes */
     plr_arena lasting; /* of what is kept then: textures, programs, sources */
@@ -217,6 +246,7 @@ struct plr_view {
     plr_framebuffer framebuffer;
     GLuint color_only, empty_vertex_array;
     plr_spare_depths spare;
+    plr_pilot pilot;
     struct plr_picked_data *picked; /* what was picked from last; NULL: nothing yet */
     plr_view_stats stats;
 };

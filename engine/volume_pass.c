@@ -7,6 +7,7 @@
 
 #include "engine/dialect.h"
 #include "engine/general.h"
+#include "engine/pilot.h"
 #include "engine/volume_plan.h"
 
 /* ---- Which volumes there are ---- */
@@ -187,6 +188,7 @@ static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) 
         memcpy(rest->members, cast->members + kept, (cast->count - kept) * sizeof *rest->members);
         rest->count = cast->count - kept;
         rest->plan = cast->plan;
+        plr_pilot_prepare(view, rest);
         cast->count = kept;
         plr_diags_add(diags, PLR_CODE_LAYERED,
                       plr_node_place(view->volumes.volumes[rest->members[0]].node),

@@ -63,6 +63,11 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
 /* Divides a cast whose rays take more steps than the renderer can in one drawing; where that cannot
  * be, its steps become longer, with a warning (no diagnostics: it stays as it is). */
 void plr_cast_find_slabs(plr_view *view, plr_cast *cast, bool early_end, plr_diags *diags);
+/* Slabs for the steps that its volumes have now; false where the renderer cannot take so many, even
+ * in slabs: then nothing has changed. */
+bool plr_cast_fit_slabs(const plr_view *view, plr_cast *cast);
+/* Whether it needs slabs, should steps become so many times as long. */
+bool plr_cast_has_slabs(const plr_view *view, const plr_cast *cast, double length);
 /* Narrows the near and far planes to a slab; 0 is the nearest. */
 void plr_cast_slab(const plr_cast *cast, unsigned slab, double cut[2]);
 /* The clip planes of a volume: its own, in the node's coordinates, and those of the scene around

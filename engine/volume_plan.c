@@ -7,6 +7,7 @@
 
 #include "engine/dialect.h"
 #include "engine/image_internal.h"
+#include "engine/pilot.h"
 #include "engine/volume_blocks.h"
 #include "engine/volume_pass.h"
 #include "engine/volume_table.h"
@@ -273,12 +274,13 @@ static plr_choice say_method(plr_view *view, const plr_plan *plan) {
 }
 
 static plr_choice say_error(plr_view *view, const plr_plan *plan) {
-    return (plr_choice){"error", plan->bounded ? "bounded" : "estimated",
-                        plan->bounded
-                            ? plr_arena_format(&view->arena,
-                                               "no channel of a pixel differs by more than %.3g",
-                                               plan->value)
-                            : "no bound is known; `plugray chart` measures it"};
+    return (plr_choice){
+        "error", plan->bounded ? "bounded" : "estimated",
+        plan->bounded
+            ? plr_arena_format(&view->arena, "no channel of a pixel differs by more than %.3g",
+                               plan->value)
+            : "no bound is known; with `--error`, pilot drawings measure it and choose the "
+              "steps"};
 }
 
 static void say(plr_view *view, plr_cast *cast, bool early_end) {
@@ -302,4 +304,5 @@ static void say(plr_view *view, plr_cast *cast, bool early_end) {
 void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
     choose(view, cast, early_end);
     say(view, cast, early_end);
+    plr_pilot_prepare(view, cast);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/general.h"
+#include "engine/pilot.h"
 #include "engine/shadows.h"
 #include "engine/volume_table.h"
 
@@ -242,7 +243,9 @@ void plr_cast_build_recipe(plr_view *view, plr_cast *cast, bool early_end, plr_d
     plr_cast_find_slabs(view, cast, early_end, diags);
     double cut[2];
     plr_viewpoint_cut(view->viewpoint, cut);
-    plr_recipe_define(k, recipe, "HAS_CUT", cast->slabs > 1 || cut[0] > 0 || isfinite(cut[1]));
+    bool slabs = cast->slabs > 1 || (plr_pilot_serves(view, cast) &&
+                                     plr_cast_has_slabs(view, cast, plr_pilot_shortest(cast)));
+    plr_recipe_define(k, recipe, "HAS_CUT", slabs || cut[0] > 0 || isfinite(cut[1]));
     plr_recipe_define(k, recipe, "SKIPS",
                       !is_segmented(cast) && plr_cast_skips(view, cast, early_end));
 }

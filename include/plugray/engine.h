@@ -246,8 +246,9 @@ typedef struct plr_phase {
 typedef struct plr_view_stats {
     plr_phase load; /* of the creation: volumes, images, meshes, what is no other phase */
     plr_phase link, compile, upload, draw; /* of the creation and of the last draw */
-    double gpu_ms;  /* of the last draw, by the GPU's clock; 0: there is no GPU */
-    double samples; /* volume samples asked for in the last draw, at most */
+    plr_phase pilots; /* of the last draw that made pilot drawings (plr_view_desc.error) */
+    double gpu_ms;    /* of the last draw, by the GPU's clock; 0: there is no GPU */
+    double samples;   /* volume samples asked for in the last draw, at most */
     /* of views that are interactive: programs that the last update waited for; that are being built
      * beside; and whether those of the next picture are general */
     size_t built, building;

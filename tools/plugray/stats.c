@@ -75,5 +75,12 @@ void stats_json(FILE *out, const render_stats *stats) {
     json_number(out, plan.step);
     fprintf(out, ", \"leaps\": %s, \"why\": ", plan.leaps ? "true" : "false");
     json_string(out, plan.why);
+    if (view.pilots.wall_ms > 0) {
+        fputs(", \"pilots\": {\"cpu_ms\": ", out);
+        json_number(out, view.pilots.cpu_ms);
+        fputs(", \"wall_ms\": ", out);
+        json_number(out, view.pilots.wall_ms);
+        putc('}', out);
+    }
     fputs("}\n}\n", out);
 }
