@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/view.h"
+#include "tests/engine/replacement.h"
 
 enum {
     MOST_VIEWS = 4,
@@ -30,90 +30,7 @@ typedef struct comparison {
     size_t count;
 } comparison;
 
-static char *read_text(const char *path) {
-    FILE *file = fopen(path, "rb");
-    char *text = calloc(1, 1 << 20);
-    if (!file || !text || !fread(text, 1, (1 << 20) - 1, file)) {
-        fprintf(stderr, "twin: cannot read %s\n", path);
-        exit(2);
-    }
-    fclose(file);
-    return text;
-}
-
-/* ---- Replacing ---- */
-
-static void find_anew(plr_view *view, plr_pass *pass, const plr_built *built) {
-    if (pass->built != built)
-        return;
-    pass->slots = (plr_slots){0};
-    plr_pass_find(view, pass);
-}
-
-/* Every pass that has the program takes its uniforms from where they are in the new one; attributes
- * of meshes are found when they are drawn next. */
-static void replace(plr_view *view, plr_built *built, GLuint name) {
-    const plr_gl *gl = &view->engine->gl;
-    built->name = name;
-    built->defaults = plr_cache_defaults(view->engine->cache, name);
-    for (size_t i = 0; i < view->model_count; i++) {
-        plr_model *model = view->models[i];
-        find_anew(view, &model->pass, built);
-        if (model->pass.built == built && model->vertex_array) {
-            gl->DeleteVertexArrays(1, &model->vertex_array);
-            gl->DeleteBuffers(model->buffer_count, model->buffers);
-            model->vertex_array = 0;
-            model->buffer_count = 0;
-        }
-    }
-    for (size_t i = 0; i < view->volumes.cast_count; i++)
-        find_anew(view, &view->volumes.casts[i].pass, built);
-}
-
-static plr_built *find_built(const plr_view *view, const char *name) {
-    for (size_t i = 0; i < view->composer.built.count; i++)
-        if (strcmp(view->composer.built.items[i]->info.name, name) == 0)
-            return view->composer.built.items[i];
-    return NULL;
-}
-
 /* ---- Comparing ---- */
-
-static void print_refusal(const plr_glsl_messages messages[PLR_STAGE_COUNT],
-                          const plr_glsl_messages *link) {
-    const char *why = link->count ? link->items[0].text : "";
-    for (int stage = 0; stage < PLR_STAGE_COUNT; stage++)
-        if (messages[stage].count)
-            why = messages[stage].items[0].text;
-    printf("refused %.200s\n", why);
-}
-
-static GLuint compile(const comparison *c, const plr_built *built,
-                      const char *const paths[PLR_STAGE_COUNT]) {
-    const char *texts[PLR_STAGE_COUNT];
-    char *read[PLR_STAGE_COUNT] = {0};
-    for (int stage = 0; stage < PLR_STAGE_COUNT; stage++) {
-        if (paths[stage] && strcmp(paths[stage], "-") != 0)
-            read[stage] = read_text(paths[stage]);
-        texts[stage] = read[stage] ? read[stage]
-                                   : plr_program_text(built->info.program, (plr_stage)stage, NULL);
-    }
-    plr_glsl_messages messages[PLR_STAGE_COUNT], link;
-    GLuint name = 0;
-    if (!plr_glsl_check(texts, messages, &link)) {
-        print_refusal(messages, &link);
-    } else {
-        name = plr_cache_program(c->engine->cache, texts, messages, &link);
-        if (!name)
-            print_refusal(messages, &link);
-    }
-    for (int stage = 0; stage < PLR_STAGE_COUNT; stage++) {
-        plr_glsl_messages_free(&messages[stage]);
-        free(read[stage]);
-    }
-    plr_glsl_messages_free(&link);
-    return name;
-}
 
 /* How many values are not the same bits, and how far they are from each other. */
 static size_t count_different(const plr_picture *a, const plr_picture *b, double *worst) {
@@ -126,14 +43,17 @@ static size_t count_different(const plr_picture *a, const plr_picture *b, double
 }
 
 static bool compare(const comparison *c, const char *const paths[PLR_STAGE_COUNT]) {
-    GLuint name = compile(c, c->built[0], paths);
+    char why[256];
+    GLuint name = replacement_compile(c->engine, c->built[0], paths, why, sizeof why);
     size_t different = 0;
     double worst = 0;
-    if (!name)
+    if (!name) {
+        printf("refused %.200s\n", why);
         return true;
+    }
     for (size_t i = 0; i < c->count; i++) {
         plr_picture picture;
-        replace(c->views[i], c->built[i], name);
+        replacement_use(c->views[i], c->built[i], name);
         if (!plr_view_draw(c->views[i], &c->size, &picture, c->diags))
             return false;
         different += count_different(&c->pictures[i], &picture, &worst);
@@ -193,7 +113,7 @@ static bool add_view(comparison *c, plr_scene *scene, const char *viewpoint, dou
     if (!view)
         return false;
     c->views[c->count++] = view;
-    c->built[i] = find_built(view, c->program);
+    c->built[i] = replacement_find(view, c->program);
     bool fine = c->built[i] && same_text(c->built[i], c->built[0]) &&
                 write_texts(c->built[i]->info.program) &&
                 plr_view_draw(view, &c->size, &c->pictures[i], c->diags);

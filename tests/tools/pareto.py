@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT, PLUGRAY = sys.argv[1], os.path.abspath(sys.argv[2])
 sys.path.insert(0, os.path.join(ROOT, "tools", "bench"))
 
-from speed import costs, data, engines, measure, rows, scenes, truth  # noqa: E402
+from speed import bounded, costs, data, engines, measure, rows, scenes, truth, turns  # noqa: E402
 
 
 def near(got, wanted, part=1e-9):
@@ -47,9 +47,10 @@ check(near(measure.standard_error((9, 11, 9, 11)), (4 / 3) ** 0.5 / 2 / 10), "a 
 error = measure.Error([0.0, 1.0, 0.5, 0.25], [0.0, 1.0, 0.0, 0.25])
 check((error.rmse, error.most) == (0.25, 0.5), "the error of a picture", error.rmse, error.most)
 
-for value, more, wanted in ((10, {}, "reached"), (9.9, {}, "**not reached**"), (9.9, {"noise": 0.2}, "within noise"),
+for value, more, wanted in ((10, {}, "reached"), (9.9, {}, "**not reached**"), (9.9, {"noise": 0.2}, "missed, within noise"),
                             (8.5, {"least": 8}, "the least is reached"), (None, {}, "not measured"),
-                            (9, {"greater": False}, "reached"), (11, {"greater": False}, "**not reached**")):
+                            (9, {"greater": False}, "reached"), (11, {"greater": False}, "**not reached**"),
+                            (10.1, {"noise": 0.2}, "reached, within noise")):
     check_equal(rows.Row("", "", value, 10, **more).reached, wanted, f"a row of {value}, bar 10, {more}")
 
 # ---- data
@@ -82,19 +83,51 @@ with tempfile.TemporaryDirectory() as folder:
         error = measure.Error(engines.read_npy(picture), truth.make(setting, folder).numbers)
         check(error.rmse < 1e-3, f"{setting.name}: as the truth", error.rmse, error.most)
         check_equal(stats["messages"], "", f"{setting.name}: no message")
-    bare = engines.Plugray(PLUGRAY, folder)
-    bare.options = set()
+    # ---- costs
 
     class Bench:
         """As little of one as costs.py needs."""
 
-        plugray, quick, rounds, clock, midpoint_words, bare = bare, True, 1, "cpu", (), ()
+        quick, rounds, clock = True, 1, "cpu"
 
-    Bench.folder = folder
-    row = costs.by_hand(Bench, type("", (), {"step": lambda self: None})())[0]
-    check(row.value is not None, "the raycaster written by hand draws the same picture", row.detail)
+    Bench.turns, Bench.folder = turns.Turns(PLUGRAY), folder
+    silent = type("", (), {"step": lambda self, more="": None, "note": print})()
+    for row in costs.by_hand(Bench, silent):
+        check(row.value is not None, f"{row.what}: the program written by hand draws the same bits", row.detail)
     for what, *pair in costs.unused_scenes(lobb):
-        programs = [plugray.render(text, ("--step", "1"), 16)["programs"] for text in pair]
-        check_equal(programs[1], programs[0], f"{what}: the same programs")
+        Bench.turns.forget()
+        first, second = (costs.Side(Bench, text, 16, "midpoint", 1).show() for text in pair)
+        check_equal(second.instructions, first.instructions, f"{what}: as many instructions")
+    ratio = costs.Ratio([[1.0, 1.1, 1.2], [1.1, 1.1, 1.3]])
+    check(ratio.median == 1.1 and 1.0 <= ratio.low <= 1.1 <= ratio.high <= 1.3, "a ratio and its interval", ratio.text())
+    Bench.turns.close()
+
+    # ---- bounds
+
+    run = bounded.Run(PLUGRAY, folder, True, 40)
+    check_equal(sorted(c.name for c in run.cases), sorted({c.name for c in run.cases}), "no two cases have one name")
+    check_equal(len(run.cases), 14 * 24 + 8 + 40, "analytic cases on three grids from eight sides, cells, random ones")
+    run.go(None, 2, "", silent)
+    again = bounded.Run(PLUGRAY, folder, True, 40)
+    check_equal(sorted(again.records.known), sorted(c.name for c in run.cases[:2]), "what was measured is known")
+    found = again.summary()
+    check_equal([r for r in found.records if "failed" in r], [], "all is drawn")
+    check_equal(found.exceeded(found.tries), [], "no error above its bound")
+    check(all(e["ms"] > 0 and e["found"] < 0.5 for _, e in found.tries), "times and errors", found.tries)
+    check(all(e["best_found"] <= e["asked"] for _, e in found.tries if e["best"]), "fixed steps within E", found.tries)
+    run.close()
+
+    case = next(c for c in run.cases if c.name.startswith("V1 constant 5x4x6"))
+    judge = bounded.Judge(case.make(), 32, 16, "")
+    right = [0.0] * (4 * 32 * 32)
+    for (x, y), color in zip(judge.places, judge.colors):
+        right[4 * (y * 32 + x):4 * (y * 32 + x) + 4] = color
+    check_equal(judge.judge(right, 1e-3), (0.0, 0), "the true colours have no error")
+    x, y = judge.places[8]
+    right[4 * (y * 32 + x)] += 0.01
+    worst, excused = judge.judge(right, 1e-3)
+    check(near(worst, 0.01, 0.05) and not excused, "a pixel that is wrong is found, and is not excused", worst, excused)
+    right[4 * (y * 32 + x)] = float("nan")
+    check(judge.judge(right)[0] == float("inf"), "so is what is no number")
 
 done()

@@ -2,44 +2,91 @@
 
 import math
 import os
+import random
 
 from . import data, engines, rows, scenes
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-BY_HAND = os.path.join(HERE, "..", "..", "..", "tests", "scenes", "minimal-raycaster.frag")
+TWINS = os.path.join(HERE, "..", "..", "..", "tests", "scenes", "twins")
 
 
-class Case:
-    """A scene drawn again and again, whose times are compared with another's."""
+class Side:
+    """A scene, and how it is drawn."""
 
-    def __init__(self, bench, text, words, size):
-        self.bench, self.text, self.words, self.size = bench, text, tuple(words), size
-        self.times, self.programs = [], None
+    def __init__(self, bench, text, size, method="auto", step=0, leaps=True):
+        self.bench, self.text, self.size = bench, text, size
+        self.how = {"method": method, "step": step, "leaps": leaps}
+        self.times, self.view = [], None
 
-    def draw(self, budget=0.4, picture=None):
-        repeat = min(max(round(1e3 * budget / max(self.times[0], 1)), 1), 40) if self.times else 1
-        stats = self.bench.plugray.render(self.text, self.words, self.size, picture, repeat)
-        self.times.append(getattr(stats["frame"], self.bench.clock))
-        self.programs = sorted((p["name"], p["instructions"], p["fetches"]) for p in stats["programs"])
+    def show(self):
+        """Makes its view anew, and draws it once."""
+        path = os.path.join(self.bench.folder, f"side-{os.getpid()}.x3dv")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(self.text)
+        self.bench.turns.scene(path)
+        self.view = self.bench.turns.view(self.size, **self.how)
+        self.bench.turns.times([self.view], 1)
+        os.remove(path)
+        return self
+
+    def picture(self):
+        path = os.path.join(self.bench.folder, f"side-{os.getpid()}.npy")
+        self.bench.turns.picture(self.view, path)
+        numbers = engines.read_npy(path)
+        os.remove(path)
+        return numbers
 
     @property
     def time(self):
-        return engines.median(self.times[1:] or self.times)  # the first one says how often to repeat
+        return engines.median(self.times)
+
+    @property
+    def instructions(self):
+        return sum(p[2] for p in self.view.programs)
 
 
-def paired(first, second, rounds, progress, budget):
-    """The median of ratios second / first, each of two measurements side by side, and its standard error."""
-    ratios = []
-    for number in range(rounds + 1):
-        order = (first, second) if number % 2 else (second, first)
-        for case in order:
-            case.draw(budget=budget)
-            progress.step()
-        if number:  # the first one says how often to repeat
-            ratios.append(second.times[-1] / first.times[-1])
-    mean = sum(ratios) / len(ratios)
-    spread = math.sqrt(sum((r - mean) ** 2 for r in ratios) / max(len(ratios) - 1, 1) / len(ratios))
-    return engines.median(ratios), spread
+def rounds_for(bench, sides, seconds):
+    """How often they can all be drawn in some CPU seconds."""
+    once = sum(t[0] for t in bench.turns.times([s.view for s in sides], 1))
+    return min(max(round(1e3 * seconds / max(once, 0.1)), 2), 400)
+
+
+class Ratio:
+    """Of times, second / first, of frames side by side: the median, and where it lies with 95 %."""
+
+    def __init__(self, blocks):
+        self.count = sum(map(len, blocks))
+        self.median = engines.median([r for block in blocks for r in block])
+        dice, found = random.Random(1), []
+        for _ in range(400):  # bootstrap, of views and of frames
+            some = [dice.choice(blocks) for _ in blocks]
+            found.append(engines.median([r for block in some for r in dice.choices(block, k=len(block))]))
+        found.sort()
+        self.low, self.high = found[10], found[389]
+        self.noise = max(self.high - self.median, self.median - self.low)
+
+    def text(self):
+        return f"95 %: {self.low:.4f} to {self.high:.4f}, {self.count} pairs of frames"
+
+
+BLOCKS = 6
+
+
+def paired(first, second, progress, seconds):
+    """Frame by frame in turns in one process. Where textures lie in memory counts, so views are made anew
+    now and then, in the other order."""
+    bench, blocks = first.bench, []
+    for number in range(2 if bench.quick else BLOCKS):
+        bench.turns.forget()
+        for side in (first, second) if number % 2 else (second, first):
+            side.show()
+        rounds = rounds_for(bench, (first, second), seconds / BLOCKS)
+        times = bench.turns.times([first.view, second.view], rounds, bench.clock)
+        first.times += times[0]
+        second.times += times[1]
+        blocks.append([b / a for a, b in zip(*times)])
+        progress.step()
+    return Ratio(blocks)
 
 
 # ---- Empty space ----
@@ -59,22 +106,17 @@ def leaping(bench, progress):
         data.write(volume, bench.folder)
         for method in (m for m in bench.methods if m.knob == "--step"):
             what = f"{method.name}, {percent} % of blocks occupied"
-            found += leap(bench, scenes.scene(volume), (*method.words, "--step", "0.5"), part, what, bar, progress)
+            found += leap(bench, scenes.scene(volume), method.name, part, what, bar, progress)
     return found
 
 
-def leap(bench, text, words, part, what, bar, progress):
-    size = 128 if bench.quick else 512
-    on, off = Case(bench, text, words, size), Case(bench, text, (*words, "--no-leaping"), size)
-    files = [os.path.join(bench.folder, f"leap-{os.getpid()}-{n}.npy") for n in "01"]
-    on.draw(picture=files[0])
-    off.draw(picture=files[1])
-    same = rows.same_bytes(*files)
-    for file in files:
-        os.remove(file)
-    ratio, spread = paired(on, off, bench.rounds, progress, 0.4)
-    return [rows.Row(part, what, ratio, bar, noise=2 * spread,
-                     detail=f"without {off.time:.1f} ms, with {on.time:.1f} ms"),
+def leap(bench, text, method, part, what, bar, progress):
+    size = 128 if bench.quick else 384
+    on, off = (Side(bench, text, size, method, 0.5, leaps) for leaps in (True, False))
+    ratio = paired(on, off, progress, 0.5 if bench.quick else 4)
+    same = on.picture().tobytes() == off.picture().tobytes()
+    return [rows.Row(part, what, ratio.median, bar, noise=ratio.noise,
+                     detail=f"without {off.time:.1f} ms, with {on.time:.1f} ms; {ratio.text()}"),
             rows.Row(part, f"{what}: pictures that differ in a bit", 0 if same else 1, 0, greater=False)]
 
 
@@ -111,34 +153,39 @@ def scaling(bench, progress):
     volume = data.lobb_volume(64)
     size = 128 if bench.quick else 384
     plain = scenes.scene(volume)
-    half = (*bench.midpoint_words, "--step", "0.5")
     with_effects = lambda n: scenes.scene(volume, node=scenes.volume_node(volume, effects=identity(n)))
     top = 4 if bench.quick else 16
     counts = [n for n in (1, 2, 4, 8, 16) if n <= top]
     sizes = [64, 128, 256] if bench.quick else [128, 256, 512, 1024]
-    bare = bench.bare
+    half = lambda text, pixels=size: Side(bench, text, pixels, "midpoint", 0.5)
     series = (
-        ("steps", [(n, plain, (*bench.midpoint_words, "--step", f"{0.5 / n:g}", *bare), size) for n in counts]),
-        ("pixels", [(n * n, plain, half, n) for n in sizes]),
-        ("effects", [(n, with_effects(n), half, size) for n in counts]),
-        ("lights", [(n, lit(volume, n), half, size) for n in counts]),
-        ("volumes", [(n, crowd(volume, n), half, size) for n in counts]),
+        ("steps", [(n, Side(bench, plain, size, "midpoint", 0.5 / n, leaps=False)) for n in counts]),
+        ("pixels", [(n * n, half(plain, n)) for n in sizes]),
+        ("effects", [(n, half(with_effects(n))) for n in counts]),
+        ("lights", [(n, half(lit(volume, n))) for n in counts]),
+        ("volumes", [(n, half(crowd(volume, n))) for n in counts]),
     )
     found, curves = [], {}
-    for name, cases in series:
-        drawn = [(n, Case(bench, *rest)) for n, *rest in cases]
-        for _ in range(max(2, bench.rounds)):
-            for _, case in drawn:
-                case.draw(budget=0.2)
-                progress.step()
-        times = [case.time for _, case in drawn]
-        numbers = [n for n, _ in drawn]
+    for name, sides in series:
+        times = side_by_side(bench, [side for _, side in sides], progress)
+        numbers = [n for n, _ in sides]
         curves[name] = list(zip(numbers, times))
         detail = ", ".join(f"{n}: {t:.1f} ms" for n, t in zip(numbers, times))
         last = math.log(times[-1] / times[-2]) / math.log(numbers[-1] / numbers[-2])
         found.append(rows.Row("Fitted exponent of CPU time", name, rows.exponent(numbers, times), 1.05,
                               greater=False, detail=f"{detail}; between the last two {last:.2f}"))
     return found, curves
+
+
+def side_by_side(bench, sides, progress):
+    """Medians of frames that take turns."""
+    bench.turns.forget()
+    for side in sides:
+        side.show()
+    rounds = min(rounds_for(bench, sides, 1 if bench.quick else 10), 40)
+    times = bench.turns.times([s.view for s in sides], rounds, bench.clock)
+    progress.step()
+    return [engines.median(t) for t in times]
 
 
 # ---- What is not used ----
@@ -165,88 +212,67 @@ def unused_scenes(volume):
 def unused(bench, progress):
     volume = data.lobb_volume(64)
     part = "CPU time with something unused or disabled against without it"
-    words = (*bench.midpoint_words, "--step", "0.25")
+    size, step, seconds = (128, 0.5, 0.5) if bench.quick else (256, 0.5, 8)
     found = []
-    for what, without, with_it in unused_scenes(volume):
-        size = 128 if bench.quick else 384
-        first, second = (Case(bench, text, words, size) for text in (without, with_it))
-        ratio, spread = paired(first, second, 2 if bench.quick else 8, progress, 0.5)
-        same = "same programs" if first.programs == second.programs else "**other programs**"
-        found.append(rows.Row(part, what, ratio, 1.01, greater=False, noise=2 * spread,
-                              detail=f"two standard errors {2 * spread:.4f}; {same}"))
+    pairs = unused_scenes(volume)
+    for what, without, with_it in (("the same scene again, for comparison", pairs[0][1], pairs[0][1]), *pairs):
+        first, second = (Side(bench, text, size, "midpoint", step) for text in (without, with_it))
+        ratio = paired(first, second, progress, seconds)
+        same = first.view.programs == second.view.programs
+        text = "the same text of the program" if same else "another text of the program"
+        control = without is with_it
+        found.append(rows.Row(part, what, ratio.median, None if control else 1.01, greater=False, noise=ratio.noise,
+                              detail=f"{ratio.text()}; {first.time:.1f} ms"))
+        if not control:
+            found.append(rows.Row(part, f"{what}: instructions more", second.instructions - first.instructions, 0,
+                                  greater=False, detail=f"of {first.instructions}; {text}"))
     return found
 
 
 # ---- Composed against written by hand ----
 
-def by_hand_scene(volume, size, step):
-    """The raycaster of the tests, fed as the engine feeds the composed one."""
-    axis, angle = scenes.turn()
-    eye = scenes.eye(volume.side)
-    x, y, z = (rotated(axis, angle, v) for v in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
-    matrix = " ".join(f"{x[i]:.9g} {y[i]:.9g} {z[i]:.9g} {eye[i]:.9g}" for i in range(3)) + " 0 0 0 1"
-    visible = [v / volume.top for v, alpha in volume.opacity if alpha > 0]
-    lows = [v for v, alpha in volume.opacity if v / volume.top < min(visible)]
-    highs = [v for v, alpha in volume.opacity if v / volume.top > max(visible)]
-    low = max(lows) / volume.top if lows else -1
-    high = min(highs) / volume.top if highs else 2
-    modes = " ".join(f'boundaryMode{axis} "CLAMP_TO_EDGE"' for axis in "STR")
-    plain = ('textureProperties TextureProperties { minificationFilter "LINEAR" magnificationFilter "LINEAR" %s }'
-             % modes)
-    return scenes.viewpoint(volume.side, False), f'''Shape {{ appearance Appearance {{ shaders ComposedShader {{
-language "GLSL"
-initializeOnly SFNode voxels ImageTexture3D {{ url "{volume.name}.nrrd" {plain} }}
-initializeOnly SFNode transferFunction ImageTexture {{ url "{volume.name}-function.nrrd" {plain} }}
-initializeOnly SFMatrix4f eyeToLocal {matrix}
-initializeOnly SFVec3f dimensions {volume.side} {volume.side} {volume.side}
-initializeOnly SFVec4f viewport 0 0 {size} {size}
-initializeOnly SFFloat sampleDistance {step:g}
-initializeOnly SFFloat referenceLength 1
-initializeOnly SFFloat transparencyLeft {1 / 131070:.9g}
-initializeOnly SFVec2f visibleValues {low:.9g} {high:.9g}
-parts [ ShaderPart {{ type "VERTEX" url "data:text/plain,
-#version 330 core
-in vec4 castle_Vertex;
-void main() {{ gl_Position = vec4(castle_Vertex.xy, 0.0, 1.0); }}" }}
-ShaderPart {{ type "FRAGMENT" url "by-hand.frag" }} ] }} }}
-geometry IndexedFaceSet {{ solid FALSE coordIndex [0 1 2 3 -1] coord Coordinate {{ point
-[-1 -1 0, 1 -1 0, 1 1 0, -1 1 0] }} }} }}
-'''
+def hand_scenes(volume):
+    """What is drawn, the twin of its program in tests/scenes/twins, and the scene."""
+    whole = lambda style: scenes.volume_node(volume, style, crop=False)
+    sun = "NavigationInfo { headlight FALSE }\nDirectionalLight { direction 1 -1 -2 ambientIntensity .3 }\n"
+    lit = ("ShadedVolumeStyle { lighting TRUE material Material { diffuseColor .6 .4 .2 specularColor .5 .6 .7 "
+           "shininess .1 ambientIntensity .4 emissiveColor .05 .1 .15 transparency .15 } }")
+    edges = "BoundaryEnhancementVolumeStyle { retainedOpacity .3 boundaryOpacity .8 opacityFactor 1.4 }"
+    map_ = scenes.style(volume)
+    return (
+        ("a transfer function", "ramp", scenes.scene(volume, node=whole(map_))),
+        ("a clip plane", "clipped", scenes.scene(volume, before="ClipPlane { plane .5 .3 0 2 }\n", node=whole(map_))),
+        ("enhanced boundaries", "boundary", scenes.scene(volume, node=whole(edges))),
+        ("light", "shaded", scenes.scene(volume, before=sun, node=whole(lit))),
+    )
 
 
-def rotated(axis, angle, v):
-    """Rodrigues' formula."""
-    c, s = math.cos(angle), math.sin(angle)
-    turned = scenes.cross(axis, v)
-    along = sum(a * b for a, b in zip(axis, v)) * (1 - c)
-    return [v[i] * c + turned[i] * s + axis[i] * along for i in range(3)]
+class HandSide(Side):
+    """The scene by a program that was written by hand."""
+
+    twin = ""
+
+    def show(self):
+        super().show()
+        self.bench.turns.replace(self.view, "volume-1", os.path.join(TWINS, "volume.vert"),
+                                 os.path.join(TWINS, self.twin + ".frag"))
+        self.bench.turns.times([self.view], 1)
+        return self
 
 
 def by_hand(bench, progress):
     volume = data.lobb_volume(64)
-    size, step = (128, 0.5) if bench.quick else (384, 0.125)
-    with open(BY_HAND, encoding="utf-8") as file, \
-            open(os.path.join(bench.folder, "by-hand.frag"), "w", encoding="utf-8") as copy:
-        copy.write(file.read())
-    view, shape = by_hand_scene(volume, size, step)
-    whole = scenes.volume_node(volume).replace("cropMin", "#").split("#")
-    node = whole[0] + "\n" + whole[1].split("\n", 1)[1]  # the one by hand knows no crop box
-    words = (*bench.midpoint_words, "--step", f"{step:g}", *bench.bare)
-    composed = Case(bench, scenes.scene(volume, node=node), words, size)
-    hand = Case(bench, "#X3D V4.0 utf8\nPROFILE Immersive\n" + view + shape, (), size)
-    files = [os.path.join(bench.folder, f"hand-{os.getpid()}-{n}.npy") for n in "01"]
-    composed.draw(picture=files[0])
-    hand.draw(picture=files[1])
-    pictures = [engines.read_npy(f) for f in files]
-    apart = max(abs(a - b) for i, (a, b) in enumerate(zip(*pictures)) if i % 4 != 3)
-    for file in files:
-        os.remove(file)
-    part = "Composed raycaster against one written by hand, CPU time"
-    if apart > 1e-3:
-        return [rows.Row(part, "ml64", None, 1.02, greater=False,
-                         detail=f"they do not draw the same: colours are up to {apart:.2g} apart")]
-    ratio, spread = paired(hand, composed, 2 if bench.quick else 8, progress, 0.5)
-    return [rows.Row(part, f"ml64, steps of {step:g} voxel",
-                     ratio, 1.02, greater=False, noise=2 * spread,
-                     detail=f"two standard errors {2 * spread:.4f}; composed "
-                     f"{composed.time:.1f} ms, by hand {hand.time:.1f} ms; colours at most {apart:.1e} apart")]
+    part = "Composed program against one main() written by hand that draws the same bits, CPU time"
+    size, step, seconds = (128, 0.5, 0.5) if bench.quick else (256, 0.5, 8)
+    found = []
+    for what, twin, text in hand_scenes(volume):
+        composed = Side(bench, text, size, "midpoint", step, leaps=False)
+        hand = HandSide(bench, text, size, "midpoint", step, leaps=False)
+        hand.twin = twin
+        ratio = paired(hand, composed, progress, seconds)
+        same = hand.picture().tobytes() == composed.picture().tobytes()
+        detail = f"{ratio.text()}; composed {composed.time:.1f} ms, by hand {hand.time:.1f} ms"
+        found.append(rows.Row(part, f"{what}, steps of {step:g} voxel", ratio.median if same else None, 1.02,
+                              greater=False, noise=ratio.noise,
+                              detail=detail if same else "they do not draw the same"))
+    return found

@@ -1,5 +1,6 @@
 """What is asked of speed and error, a row each: measured, the bar, whether it is reached."""
 
+import collections
 import math
 
 from . import engines, measure
@@ -24,10 +25,10 @@ class Row:
             return "reported"
         beyond = (lambda bar: self.value - bar) if self.greater else (lambda bar: bar - self.value)
         if beyond(self.bar) >= 0:
-            return "reached"
+            return "reached" if beyond(self.bar) >= self.noise or not self.bar else "reached, within noise"
         if self.least is not None and beyond(self.least) >= 0:
             return "the least is reached"
-        return "within noise" if beyond(self.bar) >= -self.noise else "**not reached**"
+        return "missed, within noise" if beyond(self.bar) >= -self.noise else "**not reached**"
 
     def bar_text(self):
         if self.bar is None:
@@ -163,11 +164,31 @@ def promises(results):
                     ratios.append(point.time / cheapest)
     if not said:
         return []
-    return [Row(PROMISED, "settings whose greatest error is above a bound that plugray says", len(broken), 0,
+    return [Row(PROMISED, "points of the charts whose greatest error is above a bound that plugray says", len(broken), 0,
                 greater=False, detail=f"of {said}" + "".join("; " + b for b in broken)),
-            Row(PROMISED, "CPU time against the cheapest fixed steps whose greatest error is within E, median",
+            Row(PROMISED, "the same points, time against the cheapest fixed steps whose greatest error is within E, median",
                 engines.median(ratios) if ratios else None, 1.5, greater=False,
                 detail=f"{len(ratios)} settings" + (f", {min(ratios):.2f} to {max(ratios):.2f}" if ratios else ""))]
+
+
+def bounds(summary):
+    """The same of the cases of the tests; the tables further down tell more."""
+    if not summary or not summary.tries:
+        return []
+    told = summary.some(bounded=True)
+    kinds = collections.Counter(r["kind"] for r in summary.records)
+    cases = " and ".join(f"{n} {kind}" for kind, n in sorted(kinds.items())) + " cases"
+    found = [Row(PROMISED, "cases of the tests whose greatest error is above a bound that plugray says",
+                 len(summary.exceeded(told)), 0, greater=False,
+                 detail=f"of {len(told)} pictures with a bound, of {len(summary.tries)}; {cases}, three E each")]
+    for what, tries in (("where a bound is said", told), ("all", summary.tries)):
+        ratios = summary.ratios(tries)
+        quartiles = summary.quartiles(ratios)
+        found.append(Row(PROMISED, f"the same cases, {what}: time against the cheapest fixed steps whose greatest error is "
+                         "within E, median", quartiles and quartiles[1], 1.5 if tries is told else None, greater=False,
+                         detail=f"{len(ratios)} pictures, quartiles {quartiles[0]:.2f} and {quartiles[2]:.2f}; for "
+                         f"{len(tries) - len(ratios)} more no fixed steps are within E" if quartiles else ""))
+    return found
 
 
 # ---- Finer than plain steps ----

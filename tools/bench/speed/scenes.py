@@ -81,13 +81,14 @@ def lighting(side):
             '{ type "FRAGMENT" url "data:text/plain,%s" } }' % (side, side, side, LIGHTING))
 
 
-def volume_node(volume, styles=None, effects="", more=""):
+def volume_node(volume, styles=None, effects="", crop=True):
+    """With `crop`, VTK's volume: it ends at the outermost voxels' centres."""
     side = volume.side
-    crop = 0.5 / side
-    return ("VolumeData { dimensions %d %d %d cropMin %.9g %.9g %.9g cropMax %.9g %.9g %.9g %s\n"
+    low, high = 0.5 / side, 1 - 0.5 / side
+    box = "cropMin %.9g %.9g %.9g cropMax %.9g %.9g %.9g" % (*(low,) * 3, *(high,) * 3) if crop else ""
+    return ("VolumeData { dimensions %d %d %d %s\n"
             'renderStyle %s\nvoxels ImageTexture3D { url "%s.nrrd" } effects [ %s ] }\n'
-            % (side, side, side, *(crop,) * 3, *(1 - crop,) * 3, more, styles or style(volume),
-               volume.name, effects))
+            % (side, side, side, box, styles or style(volume), volume.name, effects))
 
 
 def scene(volume, perspective=False, shaded=False, before="", node=None, after=""):
