@@ -254,7 +254,7 @@ class Run:
         os.makedirs(work, exist_ok=True)
         self.turns = turns.Turns(plugray)
         self.cases = all_cases(plugray, count, seed)
-        self.pixels, self.samples, self.budget = (96, 128, 0.1) if quick else (192, 400, 0.3)
+        self.pixels, self.samples, self.budget = (96, 128, 0.1) if quick else (128, 320, 0.2)
         self.work = work
         self.records = Records(os.path.join(work, f"bounds-{'quick-' if quick else ''}{key(plugray)}.jsonl"))
 
