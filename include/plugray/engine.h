@@ -279,6 +279,15 @@ typedef struct plr_plan {
 } plr_plan;
 PLR_API void plr_view_get_plan(const plr_view *view, plr_plan *plan);
 
+/* ---- Promises ---- */
+
+/* Tries whether the effects of authors on volumes keep what they promise (plr_promises): each alone
+ * is given some tens of thousands of samples of its volume, and such as might be, always the same
+ * ones. A promise that is broken is an error (`broken-promise`) where it is made; what is not found
+ * broken may be, at samples that were not tried. True if all was tried that could be; what could
+ * not is told. State of the GL context is set back. Needs GL; false without an engine. */
+PLR_API bool plr_view_check_promises(plr_view *view, plr_diags *diags);
+
 /* ---- What volumes hold ---- */
 
 #define PLR_PERCENTILES 0.1, 1, 5, 25, 50, 75, 95, 99, 99.9

@@ -451,6 +451,10 @@ static const plr_define noisy[] = {{"VERTICES", "1"}, {"mode_NOISE_EYE", "1"}};
 static const plr_define subtracting[] = {
     {"MODE_SUBTRACT", "1"}, {"SOURCE_SPECULAR", "1"}, {"FUNCTION_COMPLEMENT", "1"}, {"LAST", "1"}};
 
+static const char steep_shade[] =
+    "void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) {\n"
+    "    color.rgb *= s.gradient * s.normal_eye;\n}\n";
+
 static const recipe recipes[] = {
     {"unlit",
      "surface/surface",
@@ -649,6 +653,13 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"}},
      DEFINES(one_volume),
      .absent = "normal_ gradient MaterialInfo position_eye"},
+    {"promises that are tried",
+     "general/trust",
+     {{.path = "volume/grid volume/Trial", DEFINES(scalar)},
+      {"author", .text = steep_shade, .attached = 1}},
+     DEFINES(one_volume),
+     .present = "hashed sampleDistance castle_ModelViewMatrix normal_eye",
+     .absent = "ray_origin localStart"},
     {"one volume that looks ahead",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(keeping)},
