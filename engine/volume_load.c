@@ -40,6 +40,8 @@ static plr_kept_volume *find_kept(plr_view *view, const plr_node *owner, uint64_
         kept->grid.voxels->kept = false;
         if (kept->labels)
             kept->labels->kept = false;
+        if (kept->gradients)
+            kept->gradients->kept = false;
         view->kept_volumes.items[i] = view->kept_volumes.items[--view->kept_volumes.count];
         return NULL;
     }
@@ -212,6 +214,13 @@ static void measure_grid(plr_kept_volume *kept, const plr_image *image) {
     kept->grid.gradient_unit = unit ? plr_node_number(kept->node, "gradientUnit") : 0;
 }
 
+plr_kept_volume *plr_volume_kept(plr_view *view, const plr_node *owner) {
+    for (size_t i = 0; i < view->kept_volumes.count; i++)
+        if (view->kept_volumes.items[i]->node == owner)
+            return view->kept_volumes.items[i];
+    return NULL;
+}
+
 const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, plr_diags *diags) {
     uint64_t revision = data_revision(owner);
     plr_kept_volume *kept = find_kept(view, owner, revision);
@@ -292,14 +301,22 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
     return state->voxel > 0;
 }
 
-double plr_volume_steepness(plr_view *view, const plr_grid *grid) {
+const plr_image *plr_volume_voxels(plr_view *view, const plr_grid *grid, plr_image *again) {
+    *again = (plr_image){0};
+    if (grid->voxels->image.samples)
+        return &grid->voxels->image;
     plr_kept_volume unused = {.node = grid->node};
-    reading again = {.view = view, .owner = grid->node, .kept = &unused};
-    const plr_image *image = &grid->voxels->image;
-    if (!image->samples && read_voxels(&again) && fit(&again))
-        image = &again.voxels;
-    double strong = image->samples ? plr_image_gradient_percentile(image, grid->dimensions) : 0;
-    plr_image_free(&again.voxels);
-    plr_image_free(&again.labels);
+    reading r = {.view = view, .owner = grid->node, .kept = &unused};
+    bool fine = read_voxels(&r) && fit(&r);
+    plr_image_free(&r.labels);
+    *again = r.voxels;
+    return fine ? again : NULL;
+}
+
+double plr_volume_steepness(plr_view *view, const plr_grid *grid) {
+    plr_image again;
+    const plr_image *image = plr_volume_voxels(view, grid, &again);
+    double strong = image ? plr_image_gradient_percentile(image, grid->dimensions) : 0;
+    plr_image_free(&again);
     return strong > 0 ? strong : 1;
 }

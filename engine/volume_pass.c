@@ -222,6 +222,8 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         plr_cast_build_recipe(view, cast, !use.accumulates, diags);
         cast->pass.built =
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
+        plr_cast_make_gradients(view, cast);
+        plr_cast_explain(view, cast, !use.accumulates);
     }
     plr_atlas_make(&view->textures, &view->arena, &pass->functions,
                    view->desc.dialect == PLR_DIALECT_2005);

@@ -9,9 +9,22 @@
 /* The voxels, labels and place that a node's fields name, read once for each state of the nodes;
  * NULL where there are none to be had (reported). `owner`: a volume node or BlendedVolumeStyle. */
 const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, plr_diags *diags);
+/* What is kept of them now; NULL: nothing. */
+plr_kept_volume *plr_volume_kept(plr_view *view, const plr_node *owner);
 /* Makes the state of a leaf from its data; false if nothing of it can be drawn. */
 bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *state,
                      plr_diags *diags);
+
+/* The voxels of a grid: those that are still held, else read into `again`, which is the caller's to
+ * free; NULL: they cannot be had any more. */
+const plr_image *plr_volume_voxels(plr_view *view, const plr_grid *grid, plr_image *again);
+
+/* ---- Gradients (volume_gradients.c) ---- */
+
+/* Whether gradients of a volume may be held in a texture of their own. */
+bool plr_volume_can_hold_gradients(const plr_volume_state *state);
+/* Makes that texture, once for the voxels, of the volumes of a cast whose program reads it. */
+void plr_cast_make_gradients(plr_view *view, plr_cast *cast);
 
 /* ---- Surfaces of equal value (volume_surfaces.c) ---- */
 
@@ -25,9 +38,10 @@ const plr_node *plr_surface_style(const plr_node *style);
 /* Whether the styles of a volume node draw anything at all. */
 bool plr_volume_has_styles(const plr_volume_state *state);
 /* Adds the styles of a volume, attached to its effect, to a recipe; `lights` says where the light
- * comes from. NULL: there is none, of styles that only say what is opaque. */
+ * comes from. NULL: there is none, of styles that only say what is opaque. `tabled`: without the
+ * leading opacity maps, which a table has. */
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
-                           const plr_scope *lights, plr_diags *diags);
+                           const plr_scope *lights, bool tabled, plr_diags *diags);
 
 /* Where the transfer function of an opacity map is among those of all volumes; NULL: the default
  * ramp. NULL where it needs a texture of its own. */

@@ -38,6 +38,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
         {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
+        {"HAS_GRADIENTS", segments && plr_volume_can_hold_gradients(state) ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
@@ -108,9 +109,9 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
         add_volume_effect(view, recipe, state, segments, cast->plan.method == PLR_METHOD_CELLS);
     plr_volume_add_planes(view, recipe, index, *attached);
     plr_general_hide(view, recipe, state->hidden, index, *attached);
-    if (segments)
+    if (segments && !state->styled)
         return; /* a table has the styles */
-    plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, diags);
+    plr_volume_add_styles(view, recipe, index, *attached, leaf->scope, segments, diags);
     add_fog(view, recipe, leaf, index, *attached);
     size_t from = recipe->effects.count;
     plr_pass_lights(view, recipe, leaf->scope, *attached, index);

@@ -161,7 +161,7 @@ static void add_caster(plr_view *view, plr_recipe *recipe, size_t volume, size_t
     plr_volume_add_planes(view, recipe, volume, ray);
     const plr_volume_state *state = &view->volumes.volumes[volume];
     plr_general_hide(view, recipe, !any_style_of(state, plr_style_has_shadows, false), volume, ray);
-    plr_volume_add_styles(view, recipe, volume, ray, NULL, NULL);
+    plr_volume_add_styles(view, recipe, volume, ray, NULL, false, NULL);
     add_authors(view, recipe, volume, ray);
 }
 

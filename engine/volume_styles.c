@@ -58,6 +58,7 @@ typedef struct style_list {
     size_t attached;
     const plr_grid *grid;
     bool leading; /* only opacity maps so far */
+    bool tabled;  /* a table has those */
     bool off;     /* of a general program: what is added now is switched off */
     size_t *count;
     plr_diags *diags;
@@ -144,6 +145,8 @@ static void add_style_lit(style_list *list, plr_node *node, bool lighting) {
     const char *type = node ? plr_node_type(node) : "OpacityMapVolumeStyle";
     bool map = strcmp(type, "OpacityMapVolumeStyle") == 0;
     list->leading = list->leading && map;
+    if (list->leading && list->tabled)
+        return;
     const plr_atlas_place *function = place_function(list, node, map);
     bool dark = !list->scope, lit = node && !dark && has_own_light(node, lighting);
     plr_define defines[5] = {
@@ -414,7 +417,7 @@ static void add_all_segments(style_list *list, const plr_field *styles) {
 }
 
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
-                           const plr_scope *lights, plr_diags *diags) {
+                           const plr_scope *lights, bool tabled, plr_diags *diags) {
     const plr_volume_state *state = &view->volumes.volumes[volume];
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
     size_t count = 0;
@@ -425,6 +428,7 @@ void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, si
                        .attached = attached,
                        .grid = state->grid,
                        .leading = true,
+                       .tabled = tabled,
                        .count = &count,
                        .diags = diags};
     if (!is_list(state))

@@ -33,5 +33,8 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
 void plr_table_seen(const plr_table *table, float seen[2]);
 /* Whether anything can be seen of values within a range. */
 bool plr_table_sees(const plr_table *table, double low, double high);
+/* A texture as `texture`: at which part of the way from the one value to the other lies, weighted
+ * by extinction, the mean of what can be seen (volume_places.c). */
+plr_texture *plr_table_places(const plr_table *table, plr_textures *textures, plr_arena *arena);
 
 #endif

@@ -54,9 +54,17 @@ float scalar_at(const in vec3 position) {
     return voxel_scalar(voxel_at(position));
 }
 
-/* The trilinear interpolation of central differences at voxel centres: differences over exactly two
- * voxels, clamped to the outermost centres, commute with the interpolation. Value per unit length in
- * own coordinates. */
+/* The trilinear interpolation of central differences at voxel centres, value per unit length in own
+ * coordinates. */
+#if defined(HAS_GRADIENTS) && HAS_GRADIENTS
+uniform sampler3D gradients; /* at the centres, as differences from voxel to voxel */
+uniform float gradientScale;
+
+vec3 gradient_at(const in vec3 position) {
+    return texture(gradients, position).xyz * (gradientScale * voxel_count() / dimensions);
+}
+#else
+/* Differences over exactly two voxels, clamped to the outermost centres, commute with the interpolation. */
 vec3 gradient_at(const in vec3 position) {
     vec3 size = voxel_count();
     vec3 voxel = 1.0 / size;
@@ -66,6 +74,7 @@ vec3 gradient_at(const in vec3 position) {
                            scalar_at(p + z) - scalar_at(p - z));
     return difference * size / (2.0 * dimensions);
 }
+#endif
 
 /* The voxel itself as a colour, before any style. */
 vec4 voxel_color(const in vec4 value) {

@@ -334,7 +334,7 @@ void main() {
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
                 float span = end - begin;
                 bool even = n > 0 && n + 2 < steps; /* its neighbours are as long */
-                /* PLUG: volume_segment (mixed, k, begin, span, even) */
+                /* PLUG: volume_segment (mixed, k, begin, span, even, origin_eye, direction_eye) */
                 VolumeSample s;
                 vec4 color = volume_mix_color(mixed);
 #if READS(position_eye)

@@ -14,6 +14,10 @@ void PLUG_volume_chunk_end(const in float t) {
     values[10] = value_at(t);
 }
 
+#if STYLED
+uniform sampler2D places; /* between two values: at which part of the way lies the mean of what can be seen */
+#endif
+
 /* Whether anything can be seen of segment k of those, which ends here: not if the transfer function is
  * clear at all values between its ends. */
 void PLUG_volume_chunk(inout uint visible, const in int k, const in float t) {
@@ -40,8 +44,11 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
 
 /* What lies along segment k of those that are looked at together; `even`: its neighbours are as long. */
 void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t, const in float span,
-                         const in bool even) {
+                         const in bool even, const in vec3 origin_eye, const in vec3 direction_eye) {
     float from = values[k + 1], to = values[k + 2];
+#if STYLED
+    float seen = t + span * texture(places, vec2(from, to) * table_place.x + table_place.y).r;
+#endif
     /* the mean over the segment differs from that of its ends by a twelfth of the second difference; the
      * line keeps between the ends: where nothing can be seen nothing is added */
     float shift = even ? (values[k] - from - to + values[k + 3]) / 12.0 : 0.0;
@@ -51,11 +58,20 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t
     to -= falls ? up : down;
     vec4 mean = mean_between(from, to);
 #if HAS_WALL
-    if (is_inside(t) && way_to_wall(values[k + 1], values[k + 2]) <= 1.0) {
-        volume_mix_add(mixed, vec4(wall_color(values[k + 1]).rgb, 1.0), 1.0);
+    float way = way_to_wall(values[k + 1], values[k + 2]);
+    if (is_inside(t) && way <= 1.0) {
+        vec4 color = vec4(wall_color(values[k + 1]).rgb, 1.0);
+#if STYLED
+        style_at(color, t + way * span, span, origin_eye, direction_eye);
+#endif
+        volume_mix_add(mixed, color, span * depth_ratio);
         return;
     }
 #endif
-    if (is_inside(t) && !mixed.opaque)
+    if (is_inside(t) && !mixed.opaque) {
+#if STYLED
+        style_mean(mean, seen, span, origin_eye, direction_eye);
+#endif
         mixed.sum += mean * (span * depth_ratio);
+    }
 }

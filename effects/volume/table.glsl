@@ -1,9 +1,16 @@
-/* A volume of one component that a transfer function alone makes visible: where the value
- * runs evenly along the ray, a table has what lies between any two values (engine/volume_table.c). A unit of
- * Volume.glsl's effect; segments.glsl or cells.glsl, another, cuts the ray.
+/* A volume of one component that one transfer function makes visible: where the value
+ * runs evenly along the ray, a table has what lies between any two values (engine/volume_table.c). Styles
+ * that only change what can be seen look at one place of each part. A unit of Volume.glsl's effect; segments.glsl or
+ * cells.glsl, another, cuts the ray.
  *
  * Pre-integration: Max, Hanrahan, Crawfis 1990; Engel, Kraus, Ertl 2001. The table has means, not
  * products with a length, so that segments may be of any length. */
+
+#if PLUG_USED(volume_classify) || PLUG_USED(volume_shade) || PLUG_USED(volume_fog)
+#define STYLED 1
+#else
+#define STYLED 0
+#endif
 
 #if !CELLS
 uniform sampler2D integrals; /* mean of colour * extinction, and of extinction, per reference length */
@@ -44,6 +51,26 @@ bool is_inside(const in float t) {
     return true;
 #endif
 }
+
+#if STYLED
+/* What styles make of a colour at a place of the ray. */
+void style_at(inout vec4 color, const in float t, const in float span, const in vec3 origin_eye,
+              const in vec3 direction_eye) {
+    VolumeSample s;
+    sample_at(s, t, span, origin_eye, direction_eye);
+    style_sample(color, s);
+}
+
+/* The same of a mean of colour * extinction, and of extinction. */
+void style_mean(inout vec4 mean, const in float t, const in float span, const in vec3 origin_eye,
+                const in vec3 direction_eye) {
+    vec4 color = vec4(mean.rgb / max(mean.a, 1.0e-30), opacity_of_depth(mean.a));
+    float before = color.a;
+    style_at(color, t, span, origin_eye, direction_eye);
+    float extinction = color.a == before ? mean.a : -log(max(1.0 - color.a, 1.0e-30));
+    mean = extinction * vec4(color.rgb, 1.0);
+}
+#endif
 
 #if LEAPS
 /* How many blocks it is to the next in which anything can be seen, and the corner, in cells, of the cube of

@@ -171,10 +171,13 @@ static void print_members(const program_report *r) {
 }
 
 /* Whether a gradient of the effect is left in the compiled program: the text may compute one that
- * nothing of this volume reads. Central differences take six fetches in one line. */
+ * nothing of this volume reads. Central differences take six fetches in one line, where they are
+ * not held in a texture. */
 static bool fetches_gradient(const program_report *r, size_t effect) {
     for (size_t i = 0; i < r->fetch_count; i++)
-        if (r->fetches[i].effect == effect && r->fetches[i].count >= 6)
+        if (r->fetches[i].effect == effect &&
+            (r->fetches[i].count >= 6 ||
+             (r->fetches[i].sampler && strcmp(r->fetches[i].sampler, "gradients") == 0)))
             return true;
     return false;
 }
