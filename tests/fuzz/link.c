@@ -123,6 +123,22 @@ static void look_at_members(const plr_program *program) {
     }
 }
 
+/* What an effect promises is said somewhere, as each of its functions would have it. */
+static void look_at_promises(const plr_program *program) {
+    for (size_t i = 0; i < plr_program_plug_count(program); i++)
+        for (size_t call = 0; call < plr_program_plug(program, i)->call_count; call++) {
+            plr_place place = {0};
+            size_t effect = plr_program_plug_call(program, i, call, NULL);
+            plr_promises made = plr_program_promises(program, effect);
+            bool is_fragment = plr_program_plug(program, i)->stage == PLR_FRAGMENT;
+            bool said = plr_program_promise_place(program, i, call, PLR_LIPSCHITZ, &place);
+            if (is_fragment && made.lipschitz > 0 && (!said || !place.line))
+                abort();
+            if ((made.colour_only && !made.keeps_transparent) || !(made.lipschitz >= 0))
+                abort();
+        }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -143,6 +159,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         look_around(program);
         look_at_calls(program);
         look_at_members(program);
+        look_at_promises(program);
     }
     plr_program_destroy(&program);
     plr_diags_destroy(&diags);
