@@ -61,6 +61,7 @@ typedef struct trial {
     plr_program *linked; /* with the effect's own places */
     size_t effect;
     plr_promises promises;
+    bool broken[PLR_PROMISE_KINDS]; /* as was told */
     /* at hand: */
     size_t plug, calls;
     quantity result;
@@ -138,8 +139,8 @@ static GLint find_quantity(const trial *t) {
     return -1;
 }
 
-static void run(void *user) {
-    const trial *t = user;
+/* Draws the answers of the functions at one plug. */
+static void ask(const trial *t) {
     plr_view *view = t->in->view;
     const plr_gl *gl = &view->engine->gl;
     plr_frame frame;
@@ -328,17 +329,17 @@ static bool find_calls(trial *t, size_t plug) {
 }
 
 /* Colour-only has it that what is clear stays so: that is not said twice. */
-static void judge(trial *t, bool broken[PLR_PROMISE_KINDS]) {
+static void judge(trial *t) {
     const bool made[] = {[PLR_COLOUR_ONLY] = t->promises.colour_only,
                          [PLR_KEEPS_TRANSPARENT] =
                              t->promises.keeps_transparent && !t->promises.colour_only,
                          [PLR_LIPSCHITZ] = t->promises.lipschitz > 0};
     for (int k = 0; k < PLR_PROMISE_KINDS; k++) {
         plr_promise_kind kind = (plr_promise_kind)k;
-        size_t worst = made[kind] && !broken[kind] ? find_worst(t, kind) : TRIALS;
+        size_t worst = made[kind] && !t->broken[kind] ? find_worst(t, kind) : TRIALS;
         if (worst == TRIALS)
             continue;
-        broken[kind] = true;
+        t->broken[kind] = true;
         if (kind == PLR_LIPSCHITZ)
             say_lipschitz(t, worst);
         else
@@ -346,22 +347,27 @@ static void judge(trial *t, bool broken[PLR_PROMISE_KINDS]) {
     }
 }
 
+/* With the voxels that are at hand: all, or a brick of them. */
+static void ask_and_judge(void *user) {
+    ask(user);
+    judge(user);
+}
+
 static void try_calls(trial *t) {
-    bool called = false, built = false, broken[PLR_PROMISE_KINDS] = {false};
+    bool called = false, built = false;
     for (size_t plug = 0; plug < PLUG_COUNT; plug++) {
         if (!find_calls(t, plug))
             continue;
         if (!built && !build(t))
             return;
         called = built = true;
-        if (t->volume->grid->brick_sides[0]) {
-            plr_frame frame;
-            plr_frame_plan(t->in->view, t->in->view->viewpoint, SIDE, SIDE, false, &frame);
-            plr_bricks_cast(t->in->view, t->volume, &frame, run, t);
-        } else {
-            run(t);
+        if (!t->volume->grid->brick_sides[0]) {
+            ask_and_judge(t);
+            continue;
         }
-        judge(t, broken);
+        plr_frame frame;
+        plr_frame_plan(t->in->view, t->in->view->viewpoint, SIDE, SIDE, false, &frame);
+        plr_bricks_cast(t->in->view, t->volume, &frame, ask_and_judge, t);
     }
     if (!called)
         say_untested(t, "it has no function at volume_classify or volume_shade");

@@ -81,6 +81,39 @@ static void compare(plr_engine *engine, const char *name, const char *node, cons
     plr_picture_free(&bricks);
 }
 
+/* Promises of effects are tried in all bricks, and told once. */
+static void trust(plr_engine *engine) {
+    static char voxels[1 << 17], text[1 << 18];
+    static const char effect[] =
+        "Effect { parts EffectPart { type \"FRAGMENT\" url \"data:text/plain, "
+        "/* PLUG-PROMISE: colour-only */ void PLUG_volume_shade(inout vec4 color, const in "
+        "VolumeSample s) { if (%s) color.a = 0.3; }\" } }";
+    static const char *const places[] = {"s.position.x < 0.03", "s.position.y > 0.97", "true",
+                                         "s.position.z > 1.0"};
+    char effects[2048];
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        used += (size_t)snprintf(effects + used, sizeof effects - used, effect, places[i]);
+    print_voxels(voxels, sizeof voxels);
+    snprintf(text, sizeof text, "%s%s\nVolumeData { %s renderStyle %s effects [ %s ] }\n", head,
+             views[1], voxels, map, effects);
+    plr_diags *diags = plr_diags_create(NULL);
+    plr_scene *scene = plr_scene_parse(text, strlen(text), "bricks.x3dv", NULL, diags);
+    const plr_view_desc desc = {.max_voxel_bytes = 5000, .step = 1};
+    plr_view *view = plr_view_create(engine, scene, &desc, diags);
+    CHECK_INT(plr_diags_count(diags), 0);
+    CHECK(view && plr_view_check_promises(view, diags));
+    CHECK_INT(plr_diags_count(diags), 3);
+    for (size_t i = 0; i < plr_diags_count(diags); i++)
+        CHECK_INT(plr_diags_get(diags, i)->code, PLR_CODE_BROKEN_PROMISE);
+    plr_view_destroy(&view);
+    view = plr_view_create(NULL, scene, &desc, NULL);
+    CHECK(!plr_view_check_promises(view, NULL)); /* there is no GL */
+    plr_view_destroy(&view);
+    plr_scene_destroy(&scene);
+    plr_diags_destroy(&diags);
+}
+
 static void run(plr_context *context) {
     plr_diags *diags = plr_diags_create(NULL);
     plr_engine_desc desc = {.get_proc_address = plr_context_get_proc_address, .user = context};
@@ -98,6 +131,7 @@ static void run(plr_context *context) {
     char with[1200];
     snprintf(with, sizeof with, "%s ] }\nTransform { rotation 1 2 0 0.4 children [ %s", map, glass);
     compare(engine, "glass inside", "VolumeData", with, views[0], 2e-3);
+    trust(engine);
     plr_engine_destroy(&engine);
     plr_diags_destroy(&diags);
 }

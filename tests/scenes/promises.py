@@ -186,6 +186,10 @@ def untested():
                        % effect(code))
     found = check(text)
     suite.equal("on a surface", [(f[2], f[3]) for f in found], [("info", "promise")])
+    text = front_scene("", volume(data(), "OpacityMapVolumeStyle { }", effects=effect(promise(
+        "colour-only", shade("color.r *= ray_speed;")))))
+    found = check(text)
+    suite.equal("what only a ray has", [(f[2], f[3]) for f in found], [("info", "promise")])
     liar = front_scene("", volume(data(), "OpacityMapVolumeStyle { }", effects=effect(promise(
         "colour-only", shade("color.a = 0.5;")))))
     done = suite.command("check", "scene.x3dv", files={"scene.x3dv": liar})
