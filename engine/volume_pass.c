@@ -188,7 +188,6 @@ static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) 
         memcpy(rest->members, cast->members + kept, (cast->count - kept) * sizeof *rest->members);
         rest->count = cast->count - kept;
         rest->plan = cast->plan;
-        plr_pilot_prepare(view, rest);
         cast->count = kept;
         plr_diags_add(diags, PLR_CODE_LAYERED,
                       plr_node_place(view->volumes.volumes[rest->members[0]].node),
@@ -224,6 +223,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
         plr_cast_make_gradients(view, cast);
         plr_cast_explain(view, cast, !use.accumulates);
+        plr_pilot_prepare(view, cast);
     }
     plr_atlas_make(&view->textures, &view->arena, &pass->functions,
                    view->desc.dialect == PLR_DIALECT_2005);

@@ -7,7 +7,6 @@
 
 #include "engine/dialect.h"
 #include "engine/image_internal.h"
-#include "engine/pilot.h"
 #include "engine/volume_blocks.h"
 #include "engine/volume_pass.h"
 #include "engine/volume_table.h"
@@ -230,5 +229,4 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
 
 void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
     choose(view, cast, early_end);
-    plr_pilot_prepare(view, cast);
 }
