@@ -88,6 +88,8 @@ render(1, "nowhere.x3dv", "-o", "nowhere.png", stderr="[missing-file]")
 check(not (plugray.folder / "nowhere.png").exists(), "no scene, no picture")
 old = {**environment, "MESA_GL_VERSION_OVERRIDE": "2.1"}
 plugray.expect(3, "render", "box.x3dv", "-o", "old.png", env=old, stderr="[no-gl]")
+plugray.expect(3, "check", "--trust", "box.x3dv", env=old, stderr="[no-gl]")
+plugray.expect(0, "check", "box.x3dv", env=old)
 
 # ---- statistics
 

@@ -67,6 +67,7 @@ WRONG = [
     (["dump", "box.x3dv"], "-d DIR is missing"),
     (["check"], "SCENE is missing"),
     (["check", "box.x3dv", "--format", "xml"], "--format takes text|json|sarif"),
+    (["check", "box.x3dv", "--trust", "--backend", "glut"], "--backend takes auto|egl|osmesa"),
     (["link"], "BASE is missing"),
     (["link", "base.frag", "--stage", "tess"], "--stage takes vertex|geometry|fragment"),
     (["link", "base.frag", "--glsl", "120"], "--glsl takes 330|410|450|300es"),
