@@ -54,7 +54,7 @@ def nothing_for_nothing():
                     "pilots" not in told["plan"] and told["plan"]["step"] == 0.5 and told["error"]["value"] is None,
                     told["plan"], told["error"])
     suite.check("by default the picture is that of half a voxel",
-                draw("shaded")[0] == draw("shaded", "--step", "0.5")[0])
+                draw("shaded")[0] == draw("shaded", "--step", "0.5", "--method", "preintegrated")[0])
     SCENES["bounded"] = (CAMERA, volume(style=SHELL))
     told = draw("bounded", "--error", 1 / 64)[1]
     suite.check("bounded", told["error"]["kind"] == "bounded" and "pilots" not in told["plan"], told["plan"])
