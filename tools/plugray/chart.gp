@@ -17,8 +17,8 @@ set output 'chart'
 colors = '#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00'
 marks = '5 9 7 13 11 15'
 # where labels stand beside their points: curves fall from the left to the right
-right = '-1.4 1.4 -2.0 3.0 -1.4 1.4'
-above = '-0.6 0.6 -1.3 1.3 -0.6 0.6'
+right = '1.4 -1.4 -2.0 3.0 -1.4 1.4'
+above = '0.6 -0.6 -1.3 1.3 -0.6 0.6'
 color(i) = word(colors, 1 + i % 6)
 mark(i) = int(word(marks, 1 + i % 6))
 style(m) = int(value(sprintf('style_%d', m)))

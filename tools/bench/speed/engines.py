@@ -127,7 +127,8 @@ class Vtk:
             self.server = None
 
     def render(self, volume, mapper, step, size, perspective=False, shaded=False, picture=None,
-               budget=0.5):
+               budget=0.5, places=None):
+        """`places`: of several volumes with the same data, each (shift, degrees, axis)."""
         if not self.child:
             self.child = subprocess.Popen([self.python, os.path.join(HERE, "vtk_child.py")], text=True,
                                           env=self.environment, stdin=subprocess.PIPE,
@@ -137,7 +138,8 @@ class Vtk:
                "mapper": mapper, "step": step, "size": size, "perspective": perspective,
                "shading": [scenes.AMBIENT, scenes.DIFFUSE, scenes.SPECULAR, scenes.POWER] if shaded
                else None, "eye": scenes.eye(volume.side), "angle": 2 * scenes.HALF_ANGLE,
-               "half_height": scenes.half_height(volume.side), "picture": picture, "budget": budget}
+               "half_height": scenes.half_height(volume.side), "picture": picture, "budget": budget,
+               "places": places}
         self.child.stdin.write(json.dumps(job) + "\n")
         self.child.stdin.flush()
         line = self.child.stdout.readline()

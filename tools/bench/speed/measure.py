@@ -105,6 +105,12 @@ class Error:
 
 # ---- Points ----
 
+def fraction(value):
+    """1/16 where it is the inverse of a whole number."""
+    inverse = 1 / value
+    return f"1/{inverse:.0f}" if inverse > 1.5 and abs(inverse - round(inverse)) < 1e-6 * inverse else f"{value:.9g}"
+
+
 class Point:
     """One method at one value of its knob."""
 
@@ -122,12 +128,18 @@ class Point:
     @property
     def words(self):
         words = self.method.words if self.bench.plugray.can(self.method.words) else ()
-        return (*words, self.method.knob, f"{self.knob:.9g}", *self.extra)
+        knob = fraction(self.knob) if self.method.knob == "--error" else f"{self.knob:.9g}"
+        return (*words, self.method.knob, knob, *self.extra)
 
     def settings_text(self):
         if self.method.who == "plugray":
             return " ".join(self.words)
         return f"sample distance {self.knob:g}"
+
+    @property
+    def applies(self):
+        """Whether it was drawn by its method: what cannot be sampled so is sampled otherwise."""
+        return not self.plan or "--method" not in self.words or self.plan["method"] == self.method.name
 
     def draw(self, judge=False, budget=0.4):
         """Measures once more; `budget` is for the frames of one measurement, CPU seconds."""
@@ -162,7 +174,8 @@ class Point:
 
 
 def measure(points, rounds, progress, seconds_left=lambda: math.inf):
-    """Draws all points in turns, so that a busy minute hits all of them. Those that fail are dropped; slow ones
+    """Draws all points in turns, so that a busy minute hits all of them. Those that fail are dropped, and methods that
+    do not apply; slow ones
     are drawn in two rounds. A round for which there is no time is left out, but the first."""
     failed = []
     took = 0
@@ -178,6 +191,8 @@ def measure(points, rounds, progress, seconds_left=lambda: math.inf):
             except engines.Failed as why:
                 failed.append(point)
                 progress.note(f"{point.setting.name}, {point.method.name} {point.knob:g}: {why}")
+            if not point.applies:
+                failed += [p for p in points if p.method is point.method]
             progress.step()
         took = time.monotonic() - start
     return [p for p in points if p not in failed]

@@ -23,14 +23,19 @@ Voxels are of side 1, which is the reference length; the volume ends at the oute
 in perspective, as all other perspective views, are drawn smaller than the others; the size is in the table of points.
 Shaded: VTK's lighting formula, in plugray as an author's effect that promises `colour-only keeps-transparent`.
 
-Noise: two standard errors of what is compared, 10 % where there was one round alone.
+In the charts the lower left is better. The numbers at both ends of a curve are its settings: steps in voxels, or the error that
+`cells` and the planner (plugray's own choice) were asked for. A method that does not go with a scene has no curve:
+integrals over segments and cells need an opacity map and nothing else.
+
+Noise: two standard errors of what is compared, 10 % where there was one round alone. Where a row tells a 95 % interval, two
+programs took turns frame by frame in one process; the interval is that of the median of their ratios (bootstrap).
 
 Measured with: {machine}.
 """
 
 
 def machine(bench):
-    """Processor, renderer and peers; no names of hosts or places."""
+    """Processor, renderer and peers."""
     found = [f"{os.cpu_count()} cores"]
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         models = re.findall(r"model name\s*:\s*(.*)", file.read())
@@ -64,7 +69,13 @@ def summary(rows):
     counts = {}
     for row in rows:
         counts[row.reached.strip("*")] = counts.get(row.reached.strip("*"), 0) + 1
-    return "Rows: " + ", ".join(f"{n} {name}" for name, n in counts.items()) + "."
+    text = "Of what has a bar: " + "; ".join(f"{n} {name}" for name, n in counts.items() if name != "reported") + "."
+    lost = [row for row in rows if row.reached in ("**not reached**", "the least is reached", "missed, within noise")]
+    if lost:
+        text += "\n\nWhere we fall short:\n\n"
+        text += table(("of", "what", "measured", "bar"),
+                      [(row.part, row.what, row.value_text(), row.bar_text()) for row in lost])
+    return text
 
 
 def chosen(point):
@@ -82,7 +93,7 @@ def points_table(points, clock):
         kind = f"{said['kind']} {said['value']:.2g}" if said.get("value") else "-"
         noise = f"{100 * point.slack / 2:.1f} %" if len(point.times) > 1 else "one round"
         rows.append((point.method.name, f"`{point.settings_text()}`", f"{point.time:.1f}", noise,
-                     f"{point.error.rmse:.2e}", f"{point.error.most:.4f}", plan, kind))
+                     f"{point.error.rmse:.2e}", f"{point.error.most:.1e}", plan, kind))
     return table(("method", "setting", f"{clock} ms", "standard error", "RMSE", "greatest error", "chosen",
                   "says"), rows)
 

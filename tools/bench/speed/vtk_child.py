@@ -1,7 +1,7 @@
 """Draws with VTK 9 what pareto asks for, and says what a frame costs.
 
 Reads one JSON object a line: `volume` {path, side, kind, color, opacity}, `perspective`, `shaded`,
-`mapper` (gpu or fixed), `step` (voxels), `size` (pixels), `budget` (CPU seconds), `picture` (a file for
+`mapper` (gpu or fixed), `places` (null, or of volumes that have these data: shift, degrees, axis), `step` (voxels), `size` (pixels), `budget` (CPU seconds), `picture` (a file for
 float RGBA, bottom row first, or null). Answers one line for each: `cpu_ms` and `wall_ms` of every frame
 after a first one. Windows are kept from line to line. Needs a display.
 """
@@ -20,7 +20,7 @@ from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkIOImage import vtkImageImport
 from vtkmodules.vtkRenderingCore import (vtkColorTransferFunction, vtkRenderWindow, vtkRenderer,
                                          vtkVolume, vtkVolumeProperty)
-from vtkmodules.vtkRenderingVolume import vtkFixedPointVolumeRayCastMapper
+from vtkmodules.vtkRenderingVolume import vtkFixedPointVolumeRayCastMapper, vtkMultiVolume
 
 TEXTURE_2D, RGBA, FLOAT, RGBA32F = 0x0DE1, 0x1908, 0x1406, 0x8814
 MOST_FRAMES = 5
@@ -86,16 +86,33 @@ def set_step(mapper, step):
         mapper.SetInteractiveSampleDistance(step)
 
 
+def make_prop(job, source, mapper):
+    """Several volumes as vtkMultiVolume: it alone mixes them."""
+    half = job["volume"]["side"] / 2 - 0.5
+    places = job["places"] or [((0, 0, 0), 0, (1, 0, 0))]
+    several = vtkMultiVolume() if len(places) > 1 else None
+    if several:
+        several.SetMapper(mapper)
+    for port, (shift, angle, axis) in enumerate(places):
+        volume = vtkVolume()
+        volume.SetProperty(make_property(job["volume"], job["shading"]))
+        volume.SetOrigin(half, half, half)
+        volume.RotateWXYZ(angle, *axis)
+        volume.SetPosition(*shift)
+        mapper.SetInputConnection(port, source.GetOutputPort())
+        if not several:
+            volume.SetMapper(mapper)
+            return volume
+        several.SetVolume(volume, port)
+    return several
+
+
 def make_window(job, source):
     mapper = make_mapper(job["mapper"])
-    mapper.SetInputConnection(source.GetOutputPort())
-    prop = vtkVolume()
-    prop.SetProperty(make_property(job["volume"], job["shading"]))
-    prop.SetMapper(mapper)
     renderer = vtkRenderer()
     renderer.SetBackground(0, 0, 0)
     renderer.SetBackgroundAlpha(0)
-    renderer.AddVolume(prop)
+    renderer.AddVolume(make_prop(job, source, mapper))
     window = vtkRenderWindow()
     window.SetMultiSamples(0)
     window.SetAlphaBitPlanes(1)
@@ -166,7 +183,7 @@ def draw(window, pixel):
 
 
 def answer(job, windows, sources):
-    key = json.dumps([job[k] for k in ("volume", "perspective", "shading", "mapper", "size")])
+    key = json.dumps([job[k] for k in ("volume", "perspective", "shading", "mapper", "size", "places")])
     if key not in windows:
         path = job["volume"]["path"]
         sources[path] = sources.get(path) or read(job["volume"])
