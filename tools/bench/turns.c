@@ -7,9 +7,12 @@
  *   scene PATH                            reads a scene; the views that follow are of it
  *   view PIXELS METHOD STEP ERROR LEAPS   METHOD as in plr_method, STEP and ERROR 0: none, LEAPS 0
  *                                         or 1. Answers what was planned, and the programs
- *   replace VIEW PROGRAM VERT FRAG        the view draws with these files in the place of a
- * program, which has a name of `plugray dump` picture VIEW PATH                     draws it and
- * writes it turns ROUNDS VIEW...                  draws the views ROUNDS times, every other round
+ *   replace VIEW PROGRAM VERT FRAG        the view draws with these files in place of a program,
+ *                                         whose name is that of `plugray dump`
+ *   picture VIEW PATH                     draws it and writes it
+ *   later VIEW TIME                       draws it at another time of the scene: what pilot
+ *                                         drawings took, which are made anew then
+ *   turns ROUNDS VIEW...                  draws the views ROUNDS times, every other round
  *                                         backwards: lists of CPU and wall milliseconds. The first
  *                                         drawing of a view compiles: draw a picture of it before
  *   forget                                all scenes and views
@@ -192,6 +195,24 @@ static void write_picture(bench *b, const words *w) {
     puts("}");
 }
 
+static void draw_later(bench *b, const words *w) {
+    plr_picture picture = {0};
+    plr_phase took;
+    plr_view_stats stats;
+    shown *s = w->count == 3 ? find_view(b, w->items[1]) : NULL;
+    bool drawn = s && plr_view_update(s->view, strtod(w->items[2], NULL), b->diags) &&
+                 draw(b, s, &picture, &took);
+    plr_picture_free(&picture);
+    if (!drawn) {
+        answer_error(b, "not drawn");
+        return;
+    }
+    plr_view_get_stats(s->view, &stats);
+    fputs("{\"pilots_cpu_ms\": ", stdout);
+    json_number(stdout, stats.pilots.cpu_ms);
+    puts("}");
+}
+
 /* All views once, to times[view][round] of both clocks. */
 static bool draw_round(bench *b, const words *w, double **cpu, double **wall, long round) {
     size_t count = w->count - 2;
@@ -256,7 +277,8 @@ static const struct {
     const char *name;
     void (*run)(bench *b, const words *w);
 } commands[] = {{"scene", read_scene},      {"view", make_view},   {"replace", replace},
-                {"picture", write_picture}, {"turns", take_turns}, {"forget", answer_forget}};
+                {"picture", write_picture}, {"later", draw_later}, {"turns", take_turns},
+                {"forget", answer_forget}};
 
 /* ---- All ---- */
 

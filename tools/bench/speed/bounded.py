@@ -144,6 +144,7 @@ class Tried:
     def __init__(self, what, view, error, excused, first):
         self.what, self.view, self.error, self.excused = what, view, error, excused
         self.first = first  # milliseconds, once
+        self.pilots = 0     # what those drawings take where a view changes
 
 
 class Measurement:
@@ -176,7 +177,9 @@ class Measurement:
 
     def planned(self, judge, error):
         view = self.turns.view(self.pixels, error=error)
-        return self.tried(f"--error 1/{round(1 / error)}", judge, view, error if view.bounded else None)
+        plan = self.tried(f"--error 1/{round(1 / error)}", judge, view, error if view.bounded else None)
+        plan.pilots = self.turns.pilots(view)
+        return plan
 
     def fixed(self, judge, method, most):
         """From long steps to short ones, until the least error is reached."""
@@ -204,7 +207,7 @@ class Measurement:
             best = min(rivals[error], key=lambda t: took[t.view], default=None)
             found.append({"asked": error, "bounded": plan.view.bounded, "said": plan.view.value, "found": plan.error,
                           "excused": plan.excused, "method": plan.view.method, "step": plan.view.step,
-                          "ms": took[plan.view], "best": best.what if best else None,
+                          "ms": took[plan.view], "pilots_ms": plan.pilots, "best": best.what if best else None,
                           "best_ms": took[best.view] if best else None, "best_found": best.error if best else None})
         return found
 
@@ -307,9 +310,11 @@ class Summary:
         return [(r, e) for r, e in tries if e["bounded"] and e["found"] > max(e["asked"], e["said"])]
 
     @staticmethod
-    def ratios(tries):
-        """Time against the cheapest fixed steps, of those for which there are some; cheapest first."""
-        return sorted((e["ms"] / e["best_ms"], r["name"], e) for r, e in tries if e["best"])
+    def ratios(tries, pilots=0):
+        """Time against the cheapest fixed steps, of those for which there are some; cheapest first. With `pilots` 1 as
+        where the camera moves: pilot drawings are made for each frame."""
+        return sorted(((e["ms"] + pilots * e["pilots_ms"]) / e["best_ms"], f"{r['name']} {e['asked']}", r["name"], e)
+                      for r, e in tries if e["best"])
 
     @staticmethod
     def quartiles(ratios):
@@ -329,17 +334,18 @@ def numbers_of(summary, asked):
     excused = sum(e["excused"] for _, e in told)
     samples = sum(r["samples"] for r, _ in told)
     within = sum(e["found"] <= e["asked"] for _, e in tries if not e["bounded"])
-    every, bound = (summary.quartiles(summary.ratios(some)) for some in (tries, told))
+    every, bound, moving = (summary.quartiles(r) for r in (
+        summary.ratios(tries), summary.ratios(told), summary.ratios(tries, pilots=1)))
     none = sum(not e["best"] for _, e in tries)
     ratio = lambda q: f"{q[1]:.2f} ({q[0]:.2f} to {q[2]:.2f})" if q else "-"
     return (f"1/{round(1 / asked)}", f"{len(tries)}", f"{len(told)}", f"{len(summary.exceeded(told))}",
             f"{max((e['found'] / e['asked'] for _, e in told), default=0):.2f}", f"{excused} of {samples}",
-            f"{within} of {len(tries) - len(told)}", ratio(every), ratio(bound), f"{none}")
+            f"{within} of {len(tries) - len(told)}", ratio(every), ratio(bound), ratio(moving), f"{none}")
 
 
 HEAD = ("E", "cases", "bounded", "above the bound", "greatest error / E, where bounded", "pixels within E only beside",
         "estimated, and within E", "time / cheapest fixed steps within E: median (quartiles)", "the same where bounded",
-        "no fixed steps within E")
+        "the same with pilot drawings in each frame", "no fixed steps within E")
 
 
 def worst_rows(summary, count=10):
@@ -347,7 +353,7 @@ def worst_rows(summary, count=10):
     return [(name, f"1/{round(1 / e['asked'])}", "bounded" if e["bounded"] else "estimated",
              f"{e['method']}, {e['step']:g}", f"{e['ms']:.2f} ms, error {e['found']:.1e}", e["best"],
              f"{e['best_ms']:.2f} ms, error {e['best_found']:.1e}", f"{ratio:.2f}")
-            for ratio, name, e in summary.ratios(summary.tries)[:-count - 1:-1]]
+            for ratio, _, name, e in summary.ratios(summary.tries)[:-count - 1:-1]]
 
 
 WORST_HEAD = ("case", "E", "says", "chosen", "takes", "cheapest fixed steps", "take", "times")

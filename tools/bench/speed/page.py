@@ -122,7 +122,8 @@ Cases of the tests, mixed: the analytic ones on three grids from eight sides
 ([fuzz_cases.py](../tests/scenes/fuzz_cases.py)), parallel and in perspective. Some pixels of each picture are compared with the
 raycaster in double precision. Pixels that are not within E of the true colour of their own ray may be within E of that of some ray
 within 1/256 pixel, or of voxels that differ by 2 ulp of how they are stored: those are counted. Time is the CPU time of a
-frame, median; all ways to draw a case take turns in one process. Fixed steps are `midpoint` and
+frame, median; all ways to draw a case take turns in one process. Where no bound is known, the planner measures the error by pilot
+drawings, small pictures that are made when a view changes: a moving camera pays for them in each frame. Fixed steps are `midpoint` and
 `preintegrated` with 2, 1, 1/2 ... 1/64 voxel, as long as they do not take more than {limit} times what the planner takes for
 1/1023. The same on more cases, beginning where this page ended:
 

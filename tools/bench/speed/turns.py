@@ -64,8 +64,12 @@ class Turns:
         self.ask("replace", view.index, name, vertex, fragment)
 
     def picture(self, view, path):
-        """Draws and writes it; milliseconds of all threads."""
-        return self.ask("picture", view.index, path)["cpu_ms"]
+        """Draws and writes it."""
+        self.ask("picture", view.index, path)
+
+    def pilots(self, view):
+        """CPU milliseconds of the pilot drawings of a view that was drawn before."""
+        return self.ask("later", view.index, 0.001)["pilots_cpu_ms"]
 
     def times(self, views, rounds, clock="cpu"):
         """Milliseconds of each view in each round."""
