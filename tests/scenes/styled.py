@@ -139,6 +139,22 @@ def gradients():
     suite.check("lit alike", error(*pictures)[1] < 2e-3 and max(pictures[0]) > 0.2, error(*pictures))
 
 
+@suite.case
+def backends():
+    "EGL and OSMesa draw the same bits"
+    parts = (volume(STYLES["lit"]),)
+    pictures = [draw(parts, "--step", 0.5, "--method", "preintegrated", "--backend", b)[0] for b in ("egl", "osmesa")]
+    suite.check("lit segments", pictures[0] == pictures[1], error(*pictures))
+
+
+@suite.case
+def leaps():
+    "leaping changes no bit"
+    parts = (volume(STYLES["lit"]),)
+    pictures = [draw(parts, "--step", 0.5, "--method", "preintegrated", *more)[0] for more in ((), ("--no-leaping",))]
+    suite.check("lit segments", pictures[0] == pictures[1], error(*pictures))
+
+
 def nrrd(values):
     """16-bit voxels as a file."""
     head = f"NRRD0004\ntype: uint16\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nencoding: raw\nendian: little\n\n"
