@@ -131,8 +131,7 @@ vec4 exact_mean(const in float from, const in float to) {
 #if HAS_WALL
 /* Of the first opaque value from `from` on: amid opaque ones its own, else that of the nearer end. */
 vec3 opaque_color(const in float from) {
-    const float ROUNDED = 2.0e-5;
-    if (from < wallValues.x + ROUNDED || from > wallValues.y - ROUNDED)
+    if (!is_within_wall(from))
         return wall_color(from).rgb;
     vec4 sum, small, density;
     sum_at(from, sum, small, density);

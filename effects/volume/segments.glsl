@@ -61,6 +61,10 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t
     float way = way_to_wall(values[k + 1], values[k + 2]);
     if (is_inside(t) && way <= 1.0) {
         vec4 color = vec4(wall_color(values[k + 1]).rgb, 1.0);
+        if (is_within_wall(values[k + 1])) {
+            vec4 there = mean_between(values[k + 1], values[k + 1]);
+            color.rgb = there.rgb / there.a;
+        }
 #if STYLED
         style_at(color, t + way * span, span, origin_eye, direction_eye);
 #endif

@@ -101,6 +101,12 @@ float way_to_wall(const in float from, const in float to) {
 vec4 wall_color(const in float from) {
     return from < 0.5 * (wallValues.x + wallValues.y) ? wallColors[0] : wallColors[1];
 }
+
+/* Whether a value is opaque, and not just because it is the first one that is. */
+bool is_within_wall(const in float value) {
+    const float ROUNDED = 2.0e-5;
+    return value >= wallValues.x + ROUNDED && value <= wallValues.y - ROUNDED;
+}
 #endif
 
 #if !CELLS

@@ -6,6 +6,7 @@ import sys
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "reference"))
 import reference
+from scenes import constant, scene
 from pilot_data import FRONT, PIXELS, SCENES, SIDE, check_estimate, hills, known, suite, volume
 
 
@@ -33,6 +34,20 @@ def of_the_integral():
     for error in (1 / 32, 1 / 255, 1 / 1023):
         check_estimate("midpoint", error, "--method", "midpoint", slack=0)
     check_estimate("midpoint", 1 / 255, "--method", "preintegrated", slack=0)
+
+
+@suite.case
+def within_opaque_values():
+    "where a ray begins amid opaque values, their own colour is seen, not that of the first opaque one"
+    image = "0xff000000 0xff0000ff 0x00ff00ff 0x0000ffff 0x0000ff00"
+    style = f"OpacityMapVolumeStyle {{ transferFunction PixelTexture {{ image 5 1 4 {image} }} }}"
+    for value in (128, 160):
+        blue = value / 255 * 4 - 2
+        color = (0, 1 - blue, blue, 1)
+        for method in ("midpoint", "preintegrated", "cells"):
+            got = suite.middle(scene(FRONT, volume(constant(value, (2, 2, 2)), style)), "--error", "1/255",
+                               "--method", method)
+            suite.close(f"{method}, {value}", got, color, 1e-4)
 
 
 suite.run()
