@@ -5,7 +5,7 @@ no channel of any pixel is further from the truth than E.
     fuzz_bounds.py PLUGRAY [--cases N] [--seed S] [--keep FOLDER]
 
 What fails is made as small as it can be, and its scene kept in FOLDER. A pixel may also be what some ray within 1/256 of
-a pixel shows, or voxels that differ by 2/65535: those are counted."""
+a pixel shows, or voxels that differ by two ulp of how they are stored: those are counted."""
 
 import argparse
 import json
@@ -23,7 +23,6 @@ from scenes import NO_HEADLIGHT
 PIXELS = 16
 BATCH = 20  # cases that one run of the program draws
 BESIDE = [(dx / 256, dy / 256) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
-CHANGE = 2 / 65535
 
 
 def read_arguments():
@@ -89,7 +88,7 @@ def excuses(case, x, y, got, allowed):
     """The least error against the rays beside, and against other voxels."""
     colors, bars = fuzz_cases.truth(case, PIXELS, [(x, y, *shift) for shift in BESIDE])
     found = min(difference(got, c) - b for c, b in zip(colors, bars))
-    for change in (-CHANGE, CHANGE, -CHANGE / 2, CHANGE / 2):
+    for change in (-1, 1, -0.5, 0.5):
         if found <= allowed:
             break
         colors, bars = fuzz_cases.truth(case, PIXELS, [(x, y)], change)

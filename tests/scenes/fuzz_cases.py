@@ -15,6 +15,7 @@ import reference as raycaster
 
 ERRORS = ("1/64", "1/255", "1/1023")
 MOST = {"u8": 255, "u16": 65535, "f32": 1}
+ULPS = {"u8": 2 / 65535, "u16": 2 / 65535, "f32": 2 / 2 ** 23}  # two of how voxels are stored: 16 bits, or floats
 NRRD_TYPES = {"u8": ("uchar", "B"), "u16": ("ushort", "H"), "f32": ("float", "f")}
 
 
@@ -205,10 +206,11 @@ def content(case, prefix):
 
 
 def jobs(case, change=0):
+    """`change`: of all voxels, in pairs of ulps."""
     return [raycaster.volume(
         one["size"], one["numbers"], one["type"], dimensions=one["dimensions"],
         value_range=(0, MOST[one["type"]]), opacity_unit=one["unit"], matrix=raycaster.transform(**one["place"]),
-        crop=one.get("crop"), clip_planes=case.get("clips", ()), voxel_change=change,
+        crop=one.get("crop"), clip_planes=case.get("clips", ()), voxel_change=change * ULPS[one["type"]],
         transfer=raycaster.texels(one["texels"])) for one in case["volumes"]]
 
 

@@ -16,6 +16,8 @@ from . import engines, truth, turns
 
 SCENES = os.path.join(truth.SOURCES, os.pardir, "scenes")
 sys.path.insert(0, SCENES)
+import fuzz_bounds  # noqa: E402
+import fuzz_cases  # noqa: E402, they lie beside the tests
 
 RANDOM = 1000  # cases
 ERRORS = (1 / 64, 1 / 255, 1 / 1023)
@@ -23,7 +25,6 @@ LIMIT = 4  # times what the planner takes for the least error: no steps that tak
 STEPS = (2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32, 1 / 64)
 FIXED = ("midpoint", "preintegrated")
 BESIDE = [(dx / 256, dy / 256) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
-ULPS = {"u8": 2 / 65535, "u16": 2 / 65535, "f32": 2 / 2 ** 23}  # two of how voxels of this type are stored
 
 Case = collections.namedtuple("Case", "name kind make")  # kind: analytic or random
 Drawing = collections.namedtuple("Drawing", "text files jobs camera opaque")
@@ -71,8 +72,6 @@ def analytic_drawing(tests, case, view):
 
 def random_cases(count, seed):
     """Those of the fuzzing tests."""
-    import fuzz_cases
-    import fuzz_bounds
     dice = random.Random(seed)
 
     def make(number, at):
@@ -103,7 +102,7 @@ class Judge:
         self.colors, self.bars = self.ask(self.places)
 
     def ask(self, rays, ulps=0):
-        jobs = [{**job, "voxelChange": ulps * ULPS[job["type"]]} for job in self.drawing.jobs] if ulps \
+        jobs = [{**job, "voxelChange": ulps * fuzz_cases.ULPS[job["type"]]} for job in self.drawing.jobs] if ulps \
             else self.drawing.jobs
         return truth.reference.truth(jobs, self.drawing.camera, (self.size, self.size), pixels=rays, tolerance=1e-8,
                                      opaque=self.drawing.opaque)

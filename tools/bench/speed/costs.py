@@ -63,7 +63,7 @@ class Ratio:
             found.append(engines.median([r for block in some for r in dice.choices(block, k=len(block))]))
         found.sort()
         self.low, self.high = found[10], found[389]
-        self.noise = max(self.high - self.median, self.median - self.low)
+        self.above, self.below = self.high - self.median, self.median - self.low
 
     def text(self):
         return f"95 %: {self.low:.4f} to {self.high:.4f}, {self.count} pairs of frames"
@@ -115,7 +115,7 @@ def leap(bench, text, method, part, what, bar, progress):
     on, off = (Side(bench, text, size, method, 0.5, leaps) for leaps in (True, False))
     ratio = paired(on, off, progress, 0.5 if bench.quick else 4)
     same = on.picture().tobytes() == off.picture().tobytes()
-    return [rows.Row(part, what, ratio.median, bar, noise=ratio.noise,
+    return [rows.Row(part, what, ratio.median, bar, noise=ratio.below,
                      detail=f"without {off.time:.1f} ms, with {on.time:.1f} ms; {ratio.text()}"),
             rows.Row(part, f"{what}: pictures that differ in a bit", 0 if same else 1, 0, greater=False)]
 
@@ -221,7 +221,7 @@ def unused(bench, progress):
         same = first.view.programs == second.view.programs
         text = "the same text of the program" if same else "another text of the program"
         control = without is with_it
-        found.append(rows.Row(part, what, ratio.median, None if control else 1.01, greater=False, noise=ratio.noise,
+        found.append(rows.Row(part, what, ratio.median, None if control else 1.01, greater=False, noise=ratio.above,
                               detail=f"{ratio.text()}; {first.time:.1f} ms"))
         if not control:
             found.append(rows.Row(part, f"{what}: instructions more", second.instructions - first.instructions, 0,
@@ -263,7 +263,7 @@ class HandSide(Side):
 def by_hand(bench, progress):
     volume = data.lobb_volume(64)
     part = "Composed program against one main() written by hand that draws the same bits, CPU time"
-    size, step, seconds = (128, 0.5, 0.5) if bench.quick else (256, 0.5, 8)
+    size, step, seconds = (128, 0.5, 0.5) if bench.quick else (160, 0.5, 12)
     found = []
     for what, twin, text in hand_scenes(volume):
         composed = Side(bench, text, size, "midpoint", step, leaps=False)
@@ -273,6 +273,6 @@ def by_hand(bench, progress):
         same = hand.picture().tobytes() == composed.picture().tobytes()
         detail = f"{ratio.text()}; composed {composed.time:.1f} ms, by hand {hand.time:.1f} ms"
         found.append(rows.Row(part, f"{what}, steps of {step:g} voxel", ratio.median if same else None, 1.02,
-                              greater=False, noise=ratio.noise,
+                              greater=False, noise=ratio.above,
                               detail=detail if same else "they do not draw the same"))
     return found
