@@ -86,7 +86,6 @@ typedef struct plr_volume_state {
     bool styled;            /* and styles or fog change what it makes visible */
     plr_texture *integrals; /* of the table */
     plr_texture *gradients; /* at the centres of voxels; or NULL */
-    double gradient_scale;  /* of its numbers to differences of values from voxel to voxel */
     plr_texture *places;    /* where styles look; or NULL */
     plr_texture *sums;      /* the same from 0 on */
     plr_texture *ranges;    /* bounds of it */

@@ -141,9 +141,6 @@ static void v_step(const plr_known_context *c, float *out) {
 static void v_reference(const plr_known_context *c, float *out) {
     out[0] = (float)c->volume->reference;
 }
-static void v_gradient_scale(const plr_known_context *c, float *out) {
-    out[0] = (float)c->volume->gradient_scale;
-}
 static void v_gradient_unit(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->grid->gradient_unit;
 }
@@ -292,7 +289,6 @@ static const plr_known known[] = {
     {"dimensions", OWNER_VOLUME, v_dimensions},
     {"sampleDistance", OWNER_VOLUME, v_step},
     {"referenceLength", OWNER_VOLUME, v_reference},
-    {"gradientScale", OWNER_VOLUME, v_gradient_scale},
     {"gradientUnit", OWNER_GRID, v_gradient_unit},
     {"gradientMost", OWNER_VOLUME, v_gradient_most},
     {"voxelCount", OWNER_GRID, v_voxel_count},

@@ -55,7 +55,6 @@ typedef struct plr_texture {
     double steepness;         /* of voxels: the gradient that counts as 1; 0: not asked for yet */
     bool in_bricks;           /* never uploaded as a whole */
     bool keeps_image;         /* the image is wanted after the upload */
-    bool half;                /* floats are held in 16 bits */
     bool kept;                /* made by the engine, and wanted again when the scene has changed */
     const plr_node *function; /* a TransferFunction with physical keys, baked for voxels of: */
     double range[2];

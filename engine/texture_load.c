@@ -155,8 +155,6 @@ static size_t bytes_of(const plr_texture *texture) {
     for (uint32_t level = 0; level <= image->mipmaps; level++)
         samples += plr_image_level_samples(image, level);
     bool widened = image->type == PLR_UNORM8; /* bytes go up as 16 bits */
-    if (texture->half)
-        return samples * sizeof(uint16_t);
     return samples * plr_image_sample_size(widened ? PLR_UNORM16 : image->type);
 }
 

@@ -61,7 +61,7 @@ static bool is_labels(const plr_texture *texture) {
 static bool define_image(const plr_gl *gl, plr_texture *texture) {
     const plr_image *image = &texture->image;
     plr_sample_type sent = image->type == PLR_UNORM8 ? PLR_UNORM16 : image->type;
-    GLint inner = texture->half ? GL_RGBA16F : (GLint)uploads[sent].inner[image->components - 1];
+    GLint inner = (GLint)uploads[sent].inner[image->components - 1];
     GLenum format = is_labels(texture) ? GL_RED_INTEGER : formats[image->components - 1];
     const char *samples = image->samples;
     for (uint32_t level = 0; level <= image->mipmaps; level++) {

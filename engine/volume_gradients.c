@@ -9,8 +9,7 @@
 #include "engine/volume_pass.h"
 
 enum {
-    MOST_VOXELS = 1 << 25, /* 256 MiB of gradients */
-    GREATEST = 32768       /* number held: smaller ones then have all digits down to 2^-29 of it */
+    MOST_VOXELS = 1 << 24 /* 256 MiB of gradients */
 };
 
 bool plr_volume_can_hold_gradients(const plr_volume_state *state) {
@@ -20,25 +19,21 @@ bool plr_volume_can_hold_gradients(const plr_volume_state *state) {
 }
 
 /* Differences along one axis, whose voxels lie `stride` apart, half of those of the two neighbours;
- * beyond the ends lies what is at the ends. Returns the greatest. */
-static float fill_axis(const float *values, const uint32_t size[3], int axis, float *out) {
+ * beyond the ends lies what is at the ends. */
+static void fill_axis(const float *values, const uint32_t size[3], int axis, float *out) {
     static const size_t components = 4;
     size_t stride = axis == 0 ? 1 : axis == 1 ? size[0] : (size_t)size[0] * size[1];
     size_t count = (size_t)size[0] * size[1] * size[2];
-    float most = 0;
     for (size_t i = 0; i < count; i++) {
         size_t place = i / stride % size[axis];
         float high = values[place + 1 < size[axis] ? i + stride : i];
         float low = values[place > 0 ? i - stride : i];
-        float difference = 0.5f * (high - low);
-        out[components * i + (size_t)axis] = difference;
-        most = fmaxf(most, fabsf(difference));
+        out[components * i + (size_t)axis] = 0.5f * (high - low);
     }
-    return most;
 }
 
-/* The texture's image; its numbers times *scale are differences of values. False: no memory. */
-static bool fill(const plr_image *voxels, plr_image *out, double *scale) {
+/* The texture's image. False: no memory. */
+static bool fill(const plr_image *voxels, plr_image *out) {
     const uint32_t size[3] = {voxels->width, voxels->height, voxels->depth};
     size_t count = (size_t)size[0] * size[1] * size[2];
     float *values = malloc(count * sizeof *values), *numbers = calloc(count, 4 * sizeof *numbers);
@@ -54,15 +49,9 @@ static bool fill(const plr_image *voxels, plr_image *out, double *scale) {
         return false;
     }
     plr_image_convert(voxels, 1, PLR_FLOAT32, values);
-    float most = 0;
     for (int axis = 0; axis < 3; axis++)
-        most = fmaxf(most, fill_axis(values, size, axis, numbers));
+        fill_axis(values, size, axis, numbers);
     free(values);
-    int exponent = 0;
-    frexp((double)most, &exponent); /* a power of two loses no digit */
-    *scale = most > 0 ? ldexp(1.0 / GREATEST, exponent) : 1;
-    for (size_t i = 0; i < 4 * count && most > 0; i++)
-        numbers[i] *= (float)(1 / *scale);
     return true;
 }
 
@@ -71,15 +60,14 @@ static void make_gradients(plr_view *view, plr_volume_state *state) {
     if (kept && !kept->gradients) {
         plr_image again, image;
         const plr_image *voxels = plr_volume_voxels(view, state->grid, &again);
-        bool made = voxels && fill(voxels, &image, &kept->gradient_scale);
+        bool made = voxels && fill(voxels, &image);
         plr_image_free(&again);
         if (!made)
             longjmp(*view->arena.out_of_memory, 1);
         kept->gradients = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
-        kept->gradients->half = kept->gradients->kept = true;
+        kept->gradients->kept = true;
     }
     state->gradients = kept ? kept->gradients : NULL;
-    state->gradient_scale = kept ? kept->gradient_scale : 1;
 }
 
 void plr_cast_make_gradients(plr_view *view, plr_cast *cast) {

@@ -116,10 +116,8 @@ static plr_choice say_gradients(const plr_cast *cast) {
         held = held || strcmp(plr_program_symbol(program, i)->name, "gradients") == 0;
     const char *text = program ? plr_program_text(program, PLR_FRAGMENT, NULL) : NULL;
     if (held)
-        return (plr_choice){
-            "gradients", "held",
-            "one look at differences at voxel centres, 16-bit floats: wrong by one in "
-            "2000 at most, 8 bytes a voxel"};
+        return (plr_choice){"gradients", "held",
+                            "one look at differences at voxel centres, 16 bytes a voxel"};
     if (text && strstr(text, "gradient_at"))
         return (plr_choice){"gradients", "of samples",
                             "six more samples where one is asked for, exact as voxels are"};

@@ -58,10 +58,9 @@ float scalar_at(const in vec3 position) {
  * coordinates. */
 #if defined(HAS_GRADIENTS) && HAS_GRADIENTS
 uniform sampler3D gradients; /* at the centres, as differences from voxel to voxel */
-uniform float gradientScale;
 
 vec3 gradient_at(const in vec3 position) {
-    return texture(gradients, position).xyz * (gradientScale * voxel_count() / dimensions);
+    return texture(gradients, position).xyz * (voxel_count() / dimensions);
 }
 #else
 /* Differences over exactly two voxels, clamped to the outermost centres, commute with the interpolation. */

@@ -692,7 +692,7 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"},
       {.path = "lights/DirectionalLight"}},
      DEFINES(in_segments),
-     .present = "integrals places gradients gradientScale",
+     .present = "integrals places gradients",
      .absent = "scalar_at"},
     {"two volumes in segments",
      "volume/raycaster",
