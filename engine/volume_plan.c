@@ -8,6 +8,7 @@
 #include "engine/dialect.h"
 #include "engine/image_internal.h"
 #include "engine/volume_blocks.h"
+#include "engine/volume_maps.h"
 #include "engine/volume_pass.h"
 #include "engine/volume_table.h"
 
@@ -47,21 +48,43 @@ static void search_styles(const plr_node *style, bool on, style_search *s) {
     }
 }
 
-/* The table of a transfer function; NULL: of voxels as they are, or of the default map. */
-static plr_table *make_table(plr_view *view, const plr_atlas_place *place, bool reversed) {
+/* Where none is asked for. */
+#define USUAL_ERROR (1.0 / 255)
+
+/* Two units in the last place of voxels: so far from an opaque value one is opaque, too. */
+static float find_slack(const plr_grid *grid) {
+    return grid->voxels->image.type == PLR_FLOAT32 ? 1.2e-7F : 7.6e-6F;
+}
+
+/* The table of a transfer function, its opacity multiplied by a factor; NULL: of voxels as they
+ * are. */
+static plr_table *make_table(plr_view *view, const plr_atlas_place *place,
+                             const plr_volume_state *state, double factor) {
     static const float ramps[2][8] = {{0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 0, 1, 1, 1, 1, 0}};
-    if (!place || !place->function)
-        return plr_table_make(&view->textures, &view->arena, ramps[reversed], 2);
-    const plr_image *image = &place->function->image;
-    size_t count = (size_t)image->width * image->height;
-    float *texels = malloc((count + 1) * 4 * sizeof *texels);
+    bool reversed = view->desc.dialect == PLR_DIALECT_2005 && place;
+    const plr_image *image = place && place->function ? &place->function->image : NULL;
+    uint32_t width = image && image->width > 1 ? image->width : 2;
+    size_t count = image ? (size_t)image->width * image->height + 1 : 2;
+    float *texels = malloc(count * 4 * sizeof *texels);
     if (!texels)
         longjmp(*view->arena.out_of_memory, 1);
-    plr_image_convert(image, 4, PLR_FLOAT32, texels);
-    if (image->width == 1)
+    if (image)
+        plr_image_convert(image, 4, PLR_FLOAT32, texels);
+    else
+        memcpy(texels, ramps[reversed], sizeof ramps[reversed]);
+    if (image && image->width == 1)
         memcpy(texels + 4, texels, 4 * sizeof *texels);
-    plr_table *table =
-        plr_table_make(&view->textures, &view->arena, texels, image->width > 1 ? image->width : 2);
+    bool even = true; /* what is cut off at 1 before it is multiplied is not linear */
+    for (size_t i = 0; i < width && factor != 1; i++) {
+        even = even && texels[4 * i + 3] <= 1;
+        texels[4 * i + 3] = (float)((double)texels[4 * i + 3] * factor);
+    }
+    plr_table_wish wish = {.slack = find_slack(state->grid),
+                           .error = state->general         ? 0
+                                    : view->desc.error > 0 ? view->desc.error
+                                                           : USUAL_ERROR};
+    plr_table *table = plr_table_make(&view->textures, &view->arena, texels, width, &wish);
+    table->tame = table->tame && even;
     free(texels);
     return table;
 }
@@ -103,19 +126,19 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     style_search search = {.general = state->general, .left = MOST_LOOKS};
     const plr_node *style = styles->count ? styles->value.nodes[0] : NULL;
     search_styles(style, true, &search);
-    bool bare = search.bare || (style && !search.any && !search.styled);
+    plr_style_map found;
+    bool plain = plr_style_find_map(style, state->general, &found);
+    bool bare = plain ? found.bare : search.bare || (style && !search.any && !search.styled);
+    const plr_node *map = plain ? found.map : search.map;
     const plr_atlas_place *place = NULL;
-    if (!bare && !(place = plr_style_place(view, search.map, state->grid)))
+    if (!bare && !(place = plr_style_place(view, map, state->grid)))
         return false;
-    plr_table *table = make_table(view, place, view->desc.dialect == PLR_DIALECT_2005 && place);
-    if (table->walls > 1)
-        return false;
-    state->table = table;
-    state->styled = search.styled || state->authors_act ||
+    state->table = make_table(view, place, state, plain ? found.factor : 1);
+    state->styled = !plain || state->authors_act ||
                     plr_pass_fog(view, view->volumes.leaves[state->index]->scope)->node;
     state->integrals = state->table->texture;
     if (state->styled)
-        state->places = plr_table_places(table, &view->textures, &view->arena);
+        state->places = plr_table_places(state->table, &view->textures, &view->arena);
     state->sums = state->table->sums;
     state->ranges = state->table->ranges;
     plr_table_seen(state->table, state->seen);
@@ -125,49 +148,38 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
 
 /* ---- Plans ---- */
 
-/* Together volumes need no more textures than every machine has, opaque values of one would have to
- * end the parts of others, and translucent surfaces cut rays elsewhere. */
-static bool can_be_cut(plr_view *view, const plr_cast *cast) {
-    enum {
-        MOST_TOGETHER = 3
-    };
-    bool walls = false;
-    for (size_t i = 0; i < cast->count; i++)
-        walls = walls || view->volumes.volumes[cast->members[i]].table->walls > 0;
-    return cast->count <= MOST_TOGETHER && !(walls && cast->count > 1) &&
-           !plr_cast_is_divided(view, cast);
-}
-
-static bool has_tables(plr_view *view, const plr_cast *cast) {
-    bool tabled = true;
-    for (size_t i = 0; tabled && i < cast->count; i++) {
-        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
-        tabled = state->table || find_table(view, state);
-    }
-    return tabled && can_be_cut(view, cast);
-}
-
-/* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
-#define LEAST_ERROR (1.0 / 4096)
-
-/* Whether opaque values of one volume may lie within another: where they end a ray, the whole part
- * of the other counts that they lie in. */
-static bool has_walls_within(const plr_view *view, const plr_cast *cast) {
-    bool walls = false;
-    for (size_t i = 0; i < cast->count; i++)
-        walls = walls || view->volumes.volumes[cast->members[i]].table->walls > 0;
-    return walls && cast->count > 1;
-}
-
-/* Below this errors were seen of functions that jump. */
-#define LEAST_BOUNDED (1.0 / 300)
-
 static bool are_styled(const plr_view *view, const plr_cast *cast) {
     bool styled = false;
     for (size_t i = 0; i < cast->count; i++)
         styled = styled || view->volumes.volumes[cast->members[i]].styled;
     return styled;
 }
+
+/* Volumes together need no more textures than there are, and translucent surfaces cut rays
+ * elsewhere. Tables of segments know one range of opaque values, of one volume. */
+static bool can_be_cut(plr_view *view, const plr_cast *cast, plr_method method) {
+    enum {
+        MOST_TOGETHER = 3
+    };
+    int walls = 0;
+    for (size_t i = 0; i < cast->count; i++)
+        walls += view->volumes.volumes[cast->members[i]].table->walls;
+    bool segments = method == PLR_METHOD_PREINTEGRATED || are_styled(view, cast);
+    return cast->count <= MOST_TOGETHER && !(segments && walls > (cast->count > 1 ? 0 : 1)) &&
+           !plr_cast_is_divided(view, cast);
+}
+
+static bool has_tables(plr_view *view, const plr_cast *cast, plr_method method) {
+    bool tabled = true;
+    for (size_t i = 0; tabled && i < cast->count; i++) {
+        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        tabled = state->table || find_table(view, state);
+    }
+    return tabled && can_be_cut(view, cast, method);
+}
+
+/* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
+#define LEAST_ERROR (1.0 / 4096)
 
 static bool are_tame(const plr_view *view, const plr_cast *cast) {
     bool tame = true;
@@ -182,7 +194,7 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     bool fixed = desc->step > 0;
     *plan = (plr_plan){.asked = fixed             ? 0
                                 : desc->error > 0 ? desc->error
-                                                  : 1.0 / 255,
+                                                  : USUAL_ERROR,
                        .value = -1,
                        .method = PLR_METHOD_MIDPOINT,
                        .step = fixed ? desc->step : 0.5,
@@ -190,7 +202,7 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     plr_method wanted = desc->method != PLR_METHOD_AUTO ? desc->method
                         : fixed                         ? PLR_METHOD_MIDPOINT
                                                         : PLR_METHOD_CELLS;
-    if (wanted != PLR_METHOD_MIDPOINT && !has_tables(view, cast)) {
+    if (wanted != PLR_METHOD_MIDPOINT && !has_tables(view, cast, wanted)) {
         plan->why =
             "samples in the middle of steps: a volume is not made visible by one transfer function "
             "of one component first of all, or there are too many together, so no bound is known";
@@ -207,20 +219,18 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     }
     if (plan->method != PLR_METHOD_CELLS)
         return;
-    double error = plan->asked > 0 ? plan->asked : 1.0 / 255;
+    double error = plan->asked > 0 ? plan->asked : USUAL_ERROR;
     plan->value = fmax(error, LEAST_ERROR);
-    bool walls = has_walls_within(view, cast);
     bool tame = are_tame(view, cast);
-    tame = tame && plan->value >= LEAST_BOUNDED;
-    plan->bounded = early_end && !walls && tame;
+    plan->bounded = early_end && tame;
     plan->step = sqrt(3);
     cast->allowed = 0.75 * plan->value;
     plan->why =
-        !tame ? "a transfer function is nearly opaque or very steep somewhere: rays are cut as if "
-                "the "
-                "bound held, but the error is estimated"
-        : walls
-            ? "volumes are drawn together of which one has opaque values: the error is estimated"
+        !tame
+            ? "a transfer function is steeper than 32-bit values can tell, or has more texels than "
+              "its table, or such beyond 0 and 1: rays are cut as if the bound held, but the error "
+              "is "
+              "estimated"
         : early_end
             ? "in each cell of voxels the value is a cubic along the ray; it is cut until what "
               "extinction and colour can differ from their integrals keeps the error"

@@ -39,6 +39,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
         {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
         {"HAS_GRADIENTS", segments && plr_volume_can_hold_gradients(state) ? "1" : "0"},
+        {"GENTLE", segments && state->table->gentle ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);

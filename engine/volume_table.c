@@ -2,12 +2,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     FEWEST_NODES = 385,
     MOST_NODES = 1025,
     FEWEST_SUMS = 2049,
-    MOST_SUMS = 8192
+    MOST_SUMS = 8192 /* a side that textures may have everywhere */
 };
 
 /* The function between two texels. */
@@ -30,28 +31,32 @@ static double extinction(double alpha) {
     return alpha < 1 ? fmin(-log1p(-alpha), PLR_MOST_DEPTH) : PLR_MOST_DEPTH;
 }
 
-/* Adds the integrals over a span of values along which opacity and colour are linear. Extinction
- * -ln(1 - a) has an integral in closed form; where that cancels, and for colours, five points of
- * Gauss and Legendre: Abramowitz and Stegun 25.4.29. */
+/* Adds the integrals over a span of values along which opacity and colour are linear; clearness
+ * runs from m (1 - r) to m (1 + r). The means of -ln(1 + r x), and of that times x, over -1 < x < 1
+ * are closed forms, and for small r their series. */
 static void add_span(const span *s, double width, double *depth, double color[3]) {
-    static const double place[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
-                                    0.953089922969332};
-    static const double weight[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
-                                     0.239314335249683, 0.118463442528095};
-    double sum = 0, sums[3] = {0, 0, 0};
-    for (int k = 0; k < 5; k++) {
-        double f = place[k];
-        double tau = weight[k] * extinction(s->from[3] + f * (s->to[3] - s->from[3]));
-        sum += tau;
+    double p = 1 - s->from[3], q = 1 - s->to[3], sum = p + q;
+    if (sum <= 0) {
+        *depth += width * PLR_MOST_DEPTH;
         for (int c = 0; c < 3; c++)
-            sums[c] += tau * (s->from[c] + f * (s->to[c] - s->from[c]));
+            color[c] += width * PLR_MOST_DEPTH * (s->from[c] + s->to[c]) / 2;
+        return;
     }
-    double p = 1 - s->from[3], q = 1 - s->to[3], exact = sum;
-    if (fabs(p - q) > 1e-3) /* integral of -ln x over x from q to p, divided by p - q */
-        exact = ((p - (p > 0 ? p * log(p) : 0)) - (q - (q > 0 ? q * log(q) : 0))) / (p - q);
-    *depth += width * exact;
+    double r = (q - p) / sum, r2 = r * r, mean, tilt;
+    if (fabs(r) < 0.05) {
+        double alpha = (s->from[3] + s->to[3]) / 2;
+        mean = -log1p(-alpha) + r2 * (1.0 / 6 + r2 * (1.0 / 20 + r2 * (1.0 / 42 + r2 / 72)));
+        tilt = -r * (1.0 / 3 + r2 * (1.0 / 15 + r2 * (1.0 / 35 + r2 / 63)));
+    } else {
+        double lp = log(fmax(p, 1e-300)), lq = log(fmax(q, 1e-300)), t = (lq - lp) / 2;
+        mean = 1 - (lp + lq) / 2 - t / r;
+        tilt = -(t * (1 - 1 / r2) + 1 / r) / 2;
+    }
+    *depth += width * mean;
     for (int c = 0; c < 3; c++)
-        color[c] += sum > 0 ? width * exact * sums[c] / sum : 0;
+        color[c] +=
+            width *
+            fmax((s->from[c] + s->to[c]) / 2 * mean + (s->to[c] - s->from[c]) / 2 * tilt, 0);
 }
 
 /* The integrals from node to node; texels are cut apart, where nodes do not lie on them. */
@@ -100,34 +105,76 @@ static void find_wall(plr_table *t, const float *texels, uint32_t count) {
     t->wall[1] += 7.6e-6f;
 }
 
-/* Integrals from 0 to each node, and between two nodes extinction as a straight line that has the
- * same integral: from row to row of the texture the integral up to a node, what is there, what is
- * added up to the next; what
- * the first lost by rounding. */
-static void fill_sums(const plr_table *t, const float *texels, uint32_t count, float *out) {
-    double w = 1.0 / (t->nodes - 1);
+/* The function at a node: between nodes colour and opacity are linear. An opacity may be above 1:
+ * the function is opaque from where it is 1 on. */
+static void at_node(const plr_table *t, const float *texels, uint32_t count, uint32_t i,
+                    double color[4]) {
+    if (t->nodes != count) {
+        at_value(texels, count, (double)i / (t->nodes - 1), color);
+        return;
+    }
+    for (uint32_t c = 0; c < 4; c++) {
+        double most = c < 3 ? 1 : 1e6, x = (double)texels[4 * i + c];
+        color[c] = x > 0 ? fmin(x, most) : 0;
+    }
+}
+
+/* So near to an opaque value extinction is taken for the logarithm of the distance, a bin of
+ * `ranges`, or as far as the texels are apart. */
+#define BESIDE_WALL (1.0 / PLR_TABLE_RANGES)
+
+/* For each span between two nodes the next opaque values, below and above those in it that are not;
+ * and from where on values lie beside these. */
+static void fill_walls(const plr_table *t, const float *texels, uint32_t count, float slack,
+                       float *out) {
+    double w = 1.0 / (t->nodes - 1), a[4], b[4];
+    double least = -2, beside_least = -2, greatest = 2, beside_greatest = 2;
+    for (uint32_t i = t->nodes - 1; i-- > 0;) {
+        at_node(t, texels, count, i, a);
+        at_node(t, texels, count, i + 1, b);
+        if (b[3] >= 1) {
+            greatest = a[3] >= 1 ? -2 : (i + (1 - a[3]) / (b[3] - a[3])) * w;
+            beside_greatest = fmax(i * w, greatest - BESIDE_WALL);
+        }
+        out[4 * i + 1] = (float)greatest - slack;
+        out[4 * i + 3] = (float)beside_greatest;
+    }
+    for (uint32_t i = 0; i + 1 < t->nodes; i++) {
+        at_node(t, texels, count, i, a);
+        at_node(t, texels, count, i + 1, b);
+        if (a[3] >= 1) {
+            least = b[3] >= 1 ? 2 : (i + (a[3] - 1) / (a[3] - b[3])) * w;
+            beside_least = fmin((i + 1) * w, least + BESIDE_WALL);
+        }
+        out[4 * i] = (float)least + slack;
+        out[4 * i + 2] = (float)beside_least;
+    }
+}
+
+/* From row to row of the texture: colour times extinction and extinction, integrated from 0 to each
+ * node; the function there, or, of a gentle one, colour times extinction and extinction; the opaque
+ * values around the span behind it; what the first row lost by rounding. */
+static void fill_sums(const plr_table *t, const float *texels, uint32_t count, float slack,
+                      float *out) {
+    size_t row = 4 * (size_t)t->nodes;
     for (uint32_t i = 0; i < t->nodes; i++) {
-        double ends[2][4];
-        uint32_t last = i + 1 < t->nodes ? i + 1 : i;
-        for (int e = 0; e < 2; e++) {
-            at_value(texels, count, (e ? last : i) * w, ends[e]);
-            ends[e][3] = extinction(ends[e][3]);
+        double color[4];
+        at_node(t, texels, count, i, color);
+        if (t->gentle) {
+            color[3] = extinction(color[3]);
             for (int c = 0; c < 3; c++)
-                ends[e][c] *= ends[e][3];
+                color[c] *= color[3];
         }
         for (int c = 0; c < 4; c++) {
             double sum = c < 3 ? t->color[i][c] : t->depth[i];
-            double next = c < 3 ? t->color[last][c] : t->depth[last];
-            double mean = last > i ? (next - sum) / w : ends[0][c];
-            bool wall = (ends[0][3] >= PLR_MOST_DEPTH) != (ends[1][3] >= PLR_MOST_DEPTH);
-            double rise = wall ? 0 : ends[1][c] - ends[0][c];
-            size_t at = 4 * (size_t)i + (size_t)c, row = 4 * (size_t)t->nodes;
+            size_t at = 4 * (size_t)i + (size_t)c;
             out[at] = (float)sum;
-            out[row + at] = (float)(mean - rise / 2);
-            out[2 * row + at] = (float)rise;
+            out[row + at] = (float)color[c];
+            out[2 * row + at] = 0;
             out[3 * row + at] = (float)(sum - (double)out[at]);
         }
     }
+    fill_walls(t, texels, count, slack, out + 2 * row);
 }
 
 /* At an opaque value next to others extinction has no number; this one continues their mean. */
@@ -177,10 +224,13 @@ static void fill(const plr_table *t, const float *texels, uint32_t count, float 
         }
 }
 
-/* Beyond, 32-bit values and nodes were seen to be too coarse: extinction (an opacity of 0.99) and
- * the change of its slope. */
-#define MOST_EXTINCTION 4.6
-#define MOST_SLOPE 1e4
+/* Beyond, 32-bit values are too coarse: a unit in their last place changes extinction by so much.
+ */
+#define MOST_SLOPE 1e5
+/* What can be seen of the function is at most so dense: what is denser hides all the same. Towards
+ * opaque values extinction grows without limit, but its mean does not. */
+#define MOST_EXTINCTION 20.0
+#define MOST_BESIDE_WALL 8.0
 
 /* Functions of the value whose slopes count: extinction, and colours times extinction, seen against
  * black and against white. */
@@ -213,11 +263,11 @@ static bin empty_bin(void) {
     return b;
 }
 
-/* The functions at a value. What is nearly opaque hides all the same. */
+/* The functions at a value. */
 static double sample_functions(const float *texels, uint32_t count, double value, double f[SLOPES],
                                double color[4]) {
     at_value(texels, count, fmin(fmax(value, 0), 1), color);
-    double tau = fmin(extinction(color[3]), 20);
+    double tau = fmin(extinction(color[3]), MOST_EXTINCTION);
     f[0] = tau;
     for (int k = 0; k < 3; k++) {
         f[1 + k] = color[k] * tau;
@@ -226,19 +276,71 @@ static double sample_functions(const float *texels, uint32_t count, double value
     return tau;
 }
 
-static void add_node(bin *b, const plr_table *t, const float *texels, uint32_t count, uint32_t i) {
-    double w = 1.0 / (t->nodes - 1), f[3][SLOPES], c[3][4], tau[3];
-    for (int k = 0; k < 3; k++)
-        tau[k] = sample_functions(texels, count, ((double)i + k - 1) * w, f[k], c[k]);
-    double most = fmax(tau[1], fmax(tau[0], tau[2]));
-    for (int s = 0; s < SLOPES; s++) {
-        widen(b->slopes[s], (f[1][s] - f[0][s]) / w);
-        widen(b->slopes[s], (f[2][s] - f[1][s]) / w);
+/* Between two texels of which one is opaque. */
+typedef struct wall_span {
+    double wall;          /* where it begins to be */
+    double beside;        /* from where on values are beside that */
+    const float *ends[2]; /* the texels: the clear one, the opaque one */
+} wall_span;
+
+static wall_span find_wall_span(const float *texels, uint32_t count, uint32_t texel) {
+    const float *x = texels + (size_t)4 * texel, *y = x + 4;
+    double w = 1.0 / (count - 1), p = (double)x[3], q = (double)y[3];
+    double wall = (texel + (1 - p) / (q - p)) * w;
+    wall_span s = {.wall = wall, .ends = {x, y}};
+    if (p < 1) {
+        s.beside = fmax(texel * w, wall - BESIDE_WALL);
+        return s;
     }
-    b->extinction = fmax(b->extinction, most);
-    for (int n = 0; n < 3 && most > 0; n++)
+    s.beside = fmin((texel + 1) * w, wall + BESIDE_WALL);
+    s.ends[0] = y;
+    s.ends[1] = x;
+    return s;
+}
+
+/* There the slope of extinction is one over the distance to that value, which cells.glsl counts. It
+ * begins with this one. */
+static void add_beside(bin *b, const float *texels, uint32_t count, const wall_span *s) {
+    double sign = s->beside < s->wall ? 1 : -1, c[4];
+    at_value(texels, count, s->beside, c);
+    double tau = fmin(extinction(c[3]), MOST_BESIDE_WALL);
+    double rise = 1 / fmax(fabs(s->wall - s->beside), 1e-9);
+    widen(b->slopes[0], sign * rise);
+    for (int k = 0; k < 3; k++) {
+        double change = ((double)s->ends[1][k] - (double)s->ends[0][k]) * (count - 1);
+        for (int white = 0; white < 2; white++) {
+            double *range = b->slopes[1 + k + 3 * white];
+            widen(range, sign * ((c[k] - white) * rise + change * tau));
+            widen(range, sign * ((c[k] - white) * rise + change * MOST_BESIDE_WALL));
+        }
+    }
+    b->extinction = fmax(b->extinction, MOST_BESIDE_WALL);
+}
+
+/* What the function does between two places of `looks` evenly spaced ones. */
+static void add_look(bin *b, const float *texels, uint32_t count, uint32_t looks, uint32_t i) {
+    double w = 1.0 / (looks - 1), f[2][SLOPES], c[2][4], tau[2];
+    uint32_t texel = (uint32_t)((i + 0.5) * w * (count - 1));
+    bool walls[2] = {texels[4 * texel + 3] >= 1, texels[4 * texel + 7] >= 1};
+    for (int k = 0; k < 2; k++)
+        tau[k] = sample_functions(texels, count, ((double)i + k) * w, f[k], c[k]);
+    for (int n = 0; n < 2 && fmax(tau[0], tau[1]) > 0; n++)
         for (int k = 0; k < 3; k++)
             widen(b->colors[k], c[n][k]);
+    if (walls[0] && walls[1])
+        return;
+    if (walls[0] || walls[1]) {
+        wall_span s = find_wall_span(texels, count, texel);
+        double middle = (i + 0.5) * w;
+        if (s.beside < s.wall ? middle > s.beside : middle < s.beside) {
+            if (s.beside < s.wall ? middle < s.wall : middle > s.wall)
+                add_beside(b, texels, count, &s);
+            return;
+        }
+    }
+    for (int s = 0; s < SLOPES; s++)
+        widen(b->slopes[s], (f[1][s] - f[0][s]) / w);
+    b->extinction = fmax(b->extinction, fmax(tau[0], tau[1]));
 }
 
 static void join_ranges(double a[][2], const double b[][2], int count) {
@@ -254,18 +356,17 @@ static void join(bin *a, const bin *b) {
     a->extinction = fmax(a->extinction, b->extinction);
 }
 
-/* For all pairs of bins what holds in them and between them. Nodes at the sides of a bin count in
- * both it and its neighbours. */
-static void fill_ranges(const plr_table *t, const float *texels, uint32_t count, float *out,
-                        bool *tame) {
-    *tame = true;
+/* For all pairs of bins what holds in them and between them. What lies at the sides of a bin counts
+ * in both it and its neighbours. Returns the greatest change of slope. */
+static double fill_ranges(const float *texels, uint32_t count, uint32_t looks, float *out) {
     bin bins[PLR_TABLE_RANGES];
+    double most = 0;
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
         bins[i] = empty_bin();
-        double from = floor((double)i / PLR_TABLE_RANGES * (t->nodes - 1) - 1e-3);
-        double to = ceil((i + 1.0) / PLR_TABLE_RANGES * (t->nodes - 1) + 1e-3);
-        for (double n = fmax(from, 0); n <= fmin(to, t->nodes - 1); n++)
-            add_node(&bins[i], t, texels, count, (uint32_t)n);
+        double from = floor((double)i / PLR_TABLE_RANGES * (looks - 1) - 1e-3) - 1;
+        double to = ceil((i + 1.0) / PLR_TABLE_RANGES * (looks - 1) + 1e-3);
+        for (double n = fmax(from, 0); n <= fmin(to, looks - 2); n++)
+            add_look(&bins[i], texels, count, looks, (uint32_t)n);
     }
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
         bin all = bins[i];
@@ -277,14 +378,22 @@ static void fill_ranges(const plr_table *t, const float *texels, uint32_t count,
                 change = fmax(change, all.colors[k][1] - all.colors[k][0]);
             for (int n = 0; n < SLOPES; n++)
                 slope = fmax(slope, all.slopes[n][1] - all.slopes[n][0]);
-            if (slope > MOST_SLOPE || all.extinction > MOST_EXTINCTION)
-                *tame = false;
+            most = fmax(most, slope);
             at[0] = (float)slope;
             at[1] = (float)all.extinction;
             at[2] = (float)change;
             at[3] = 0;
         }
     }
+    return most;
+}
+
+/* Whether the nodes have the function as it is: nothing lies between them, nothing is cut off. */
+static bool is_whole(const float *texels, uint32_t count) {
+    bool whole = count <= MOST_SUMS;
+    for (size_t i = 0; i < (size_t)4 * count; i++)
+        whole = whole && texels[i] >= 0 && (texels[i] <= 1 || i % 4 == 3);
+    return whole;
 }
 
 /* An image of RGBA. */
@@ -314,16 +423,51 @@ static void set_nodes(plr_table *t, plr_arena *arena, const float *texels, uint3
     integrate(t, texels, count);
 }
 
+/* Whether, from node to node, extinction and colour times extinction are as good as straight: they
+ * differ from a line of the same mean by no more than a part of it, of which at most 1/e is seen.
+ * Bent are the logarithm, and products. */
+static bool is_gentle(const float *texels, uint32_t count, uint32_t nodes, double allowed) {
+    double a[4], b[4];
+    at_value(texels, count, 0, b);
+    bool gentle = count <= nodes;
+    for (uint32_t i = 0; gentle && i + 1 < nodes; i++) {
+        memcpy(a, b, sizeof a);
+        at_value(texels, count, (i + 1.0) / (nodes - 1), b);
+        double least = 1 - fmax(a[3], b[3]), rise = b[3] - a[3];
+        if (least <= 0)
+            return false;
+        double mean = (extinction(a[3]) + extinction(b[3])) / 2,
+               bend = rise * rise / (least * least);
+        for (int c = 0; c < 3; c++)
+            bend = fmax(bend, 2 * fabs(b[c] - a[c]) * fabs(extinction(b[3]) - extinction(a[3])));
+        gentle = bend <= 12 * allowed * mean;
+    }
+    return gentle;
+}
+
+static uint32_t choose_sums(const float *texels, uint32_t count, double error, bool *gentle) {
+    *gentle = error > 0;
+    for (uint32_t fewest = FEWEST_SUMS; *gentle && fewest < MOST_SUMS; fewest = 2 * fewest - 1) {
+        uint32_t nodes = choose_nodes(count, fewest, MOST_SUMS);
+        if (nodes <= MOST_SUMS && is_gentle(texels, count, nodes, 0.6 * error))
+            return nodes;
+    }
+    *gentle = false;
+    return count < MOST_SUMS ? count : MOST_SUMS;
+}
+
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
-                          uint32_t count) {
+                          uint32_t count, const plr_table_wish *wish) {
     plr_table *t = PLR_NEW(arena, plr_table);
     find_wall(t, texels, count);
-    set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS));
+    set_nodes(t, arena, texels, count, choose_sums(texels, count, wish->error, &t->gentle));
     plr_image image = make_image(arena, t->nodes, 4);
-    fill_sums(t, texels, count, image.samples);
+    fill_sums(t, texels, count, wish->slack, image.samples);
     t->sums = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
     image = make_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);
-    fill_ranges(t, texels, count, image.samples, &t->tame);
+    double slope =
+        fill_ranges(texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), image.samples);
+    t->tame = slope <= MOST_SLOPE && is_whole(texels, count);
     t->ranges = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
     image = make_image(arena, t->nodes, t->nodes);

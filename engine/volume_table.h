@@ -11,12 +11,13 @@ typedef struct plr_table {
     double *depth;      /* at each node: extinction integrated from 0 on, per reference length */
     double (*color)[3]; /* the same times colour */
     uint32_t *visible;  /* of how many of the spans before a node anything can be seen */
-    bool tame;          /* nowhere nearly opaque, and no steeper than bounds hold for */
+    bool tame;          /* no steeper, and told apart no finer, than bounds hold for */
+    bool gentle;        /* of sums: straight from node to node */
     int walls;          /* ranges of values that are opaque */
     float wall[2];      /* from the least to the greatest of these */
     float wall_colors[2][4];
     plr_texture *texture; /* x: the one value, y: the other; mean colour * extinction, extinction */
-    plr_texture *sums;    /* three rows: integrals up to nodes, see cells.glsl */
+    plr_texture *sums;    /* integrals up to nodes, and more; see cells.glsl */
     plr_texture *ranges;  /* x: the least value, y: the greatest; see cells.glsl */
 } plr_table;
 
@@ -26,9 +27,15 @@ typedef struct plr_table {
 /* Optical depths per reference length are not greater: nothing shines through. */
 #define PLR_MOST_DEPTH 1e4
 
+/* What is asked of a table. */
+typedef struct plr_table_wish {
+    float slack;  /* values that differ by no more from an opaque one are opaque */
+    double error; /* that may be; 0: it is to be used as if the function were not gentle */
+} plr_table_wish;
+
 /* Of texels of RGBA, straight, interpolated linearly; at least two. */
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
-                          uint32_t count);
+                          uint32_t count, const plr_table_wish *wish);
 /* The open interval outside of which nothing can be seen; its ends may be infinite. */
 void plr_table_seen(const plr_table *table, float seen[2]);
 /* Whether anything can be seen of values within a range. */

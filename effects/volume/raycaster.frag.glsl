@@ -243,24 +243,28 @@ void main() {
             float to = t_next;
             /* PLUG: volume_cell (from, to) */
             vec3 need = vec3(0.0);
-            float least = 1.0, most = 1.0;
-            /* PLUG: volume_cell_fit (from, to, need, least, most) */
+            float most = 1.0, opaque_at = 2.0;
+            /* PLUG: volume_cell_fit (from, to, need, most, opaque_at) */
+#if HAS_WALL
+            float piece = min(opaque_at, 1.0);
+#else
+            const float piece = 1.0;
+#endif
             float through = 1.0 - accumulated.a;
             float order = 0.5 * through * need.y * min(need.y, 2.0) * need.z;
             float square = through * need.x + order;
-            float share = rate * (to - from), allowed = share + 0.125 * max(purse, 0.0);
+            float share = rate * piece * (to - from), allowed = share + 0.125 * max(purse, 0.0);
             float parts = ceil(sqrt(square / allowed));
             most = max(most, ceil(sqrt(order / allowed)));
-            parts = need.y > 0.0 ? min(max(min(parts, most), least), MOST_PARTS) : 0.0;
+            parts = need.y > 0.0 ? min(max(min(parts, most), 1.0), MOST_PARTS) : 0.0;
             if (parts > 0.0)
                 purse -= max(square / (parts * parts) - share, 0.0);
-            float span = (to - from) / max(parts, 1.0);
+            float part = piece / max(parts, 1.0), span = part * (to - from);
             for (float k = 0.0; k < parts; k += 1.0) {
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
-                float u = (k + 1.0) / parts;
+                float u = (k + 1.0) * part;
                 float begin = from + k * span;
-                vec4 wall = vec4(0.0);
-                /* PLUG: volume_cell_part (mixed, wall, from, u, parts, span) */
+                /* PLUG: volume_cell_part (mixed, from, u, part, span) */
                 VolumeSample s;
                 vec4 color = volume_mix_color(mixed);
 #if READS(position_eye)
@@ -277,14 +281,36 @@ void main() {
                 if (depth >= NOWHERE && accumulated.a > 0.0)
                     depth = begin + 0.5 * span;
 #endif
-#if HAS_WALL
-                color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));
-                /* PLUG: volume_composite (accumulated, color, s) */
-#endif
 #if WRITES_DEPTH
                 note_end(accumulated.a, begin + span);
 #endif
             }
+#if HAS_WALL
+            if (opaque_at <= 1.0) {
+                float met = from + opaque_at * (to - from);
+                vec4 wall = vec4(0.0);
+                /* PLUG: volume_cell_wall (wall, from, opaque_at) */
+                VolumeSample s;
+                vec4 color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));
+#if READS(position_eye)
+                s.position_eye = origin_eye + met * direction_eye;
+#endif
+#if READS(step_length)
+                s.step_length = 0.0;
+#endif
+#if READS(volume)
+                s.volume = -1;
+#endif
+                /* PLUG: volume_composite (accumulated, color, s) */
+#if PLUG_USED(volume_ray_end)
+                if (depth >= NOWHERE)
+                    depth = met;
+#endif
+#if WRITES_DEPTH
+                note_end(accumulated.a, met);
+#endif
+            }
+#endif
 #if EARLY_END
             ended = is_ended(accumulated.a);
 #endif

@@ -85,7 +85,7 @@ float leap_at(const in vec3 place, out vec3 corner) {
 }
 #endif
 
-#if HAS_WALL
+#if HAS_WALL && !CELLS
 uniform vec2 wallValues; /* values between these, they included, are opaque */
 uniform vec4 wallColors[2]; /* at these */
 

@@ -319,11 +319,9 @@ static const plr_define tabled[] = {{"voxels_COMPONENTS", "1"},
 static const plr_define holding[] = {{"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},
                                      {"BRICKED", "0"},           {"PROJECTS", "0"},
                                      {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}};
-static const plr_define walled[] = {{"voxels_COMPONENTS", "1"},
-                                    {"HAS_LABELS", "0"},
-                                    {"BRICKED", "0"},
-                                    {"PROJECTS", "0"},
-                                    {"HAS_WALL", "1"}};
+static const plr_define walled[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},
+    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
@@ -714,7 +712,8 @@ static const recipe recipes[] = {
       {.path = TABLED "volume/cells", DEFINES(tabled)},
       {.path = "volume/Composite"}},
      DEFINES(two_in_cells),
-     .present = "sums wallValues"},
+     .present = "sums wall_at",
+     .absent = "wallValues"},
     {"one lit volume",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},

@@ -30,7 +30,8 @@ TURNS = [(1, 2, 0.5, 0.5), (0, 0, 1, 0), (0, 1, 0, 1.7), (1, 0, 0, 2.6), (1, 1, 
          (-1, 0.3, 0.4, 1.1), (0.5, -1, 1, 5.3)]
 VIEWS = (Parallel(0.6), Perspective(1.1, 0.5))
 TEXELS = 257
-SHIFTS = [(dx / 256, dy / 256) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+SHIFTS = [(0.0, 0.0)] + [(r / 1024 * math.cos(k * math.pi / 8), r / 1024 * math.sin(k * math.pi / 8))
+                          for r in range(1, 5) for k in range(16)]
 
 
 def ramp(place):

@@ -14,8 +14,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import reference as raycaster
 
 ERRORS = ("1/64", "1/255", "1/1023")
-MOST = {"u8": 255, "u16": 65535, "f32": 1}
-ULPS = {"u8": 2 / 65535, "u16": 2 / 65535, "f32": 2 / 2 ** 23}  # two of how voxels are stored: 16 bits, or floats
+ULPS = {"u8": 2 / 65535, "u16": 2**-23, "f32": 2**-23, "f64": 0}  # two units in the last place: of 16 bits, of floats near 1
+MOST = {"u8": 255, "u16": 65535, "f32": 1, "f64": 1}
 NRRD_TYPES = {"u8": ("uchar", "B"), "u16": ("ushort", "H"), "f32": ("float", "f")}
 
 
@@ -140,6 +140,8 @@ def one_volume(r, where):
     made = {"size": size, "type": kind, "numbers": voxels(r, size, kind), "dimensions": dimensions,
             "place": placed(r, dimensions, where), "texels": function(r),
             "unit": r.choice((0, 0, round(10 ** r.uniform(-2.5, 0), 4)))}
+    if r.random() < 0.15:
+        made["factor"] = r.choice((0, 1, r.random(), r.random()))
     if r.random() < 0.2:
         low = [round(r.uniform(0, 0.5), 3) * (r.random() < 0.6) for _ in range(3)]
         made["crop"] = [low, [round(r.uniform(a + 0.1, 1), 3) for a in low]]
@@ -156,17 +158,6 @@ def random_case(r, parallel, error):
             for clip in case["clips"]:
                 clip[3] -= clip[2] * 0.9
     return case
-
-
-def walls(texels):
-    """How many ranges of values are opaque."""
-    opaque = [t[3] >= 1 for t in texels]
-    return sum(b and not a for a, b in zip([False] + opaque, opaque))
-
-
-def is_simple(case):
-    """Whether a bound is promised: one range of opaque values at most, and that of a volume alone."""
-    return all(walls(v["texels"]) < (2 if len(case["volumes"]) == 1 else 1) for v in case["volumes"])
 
 
 # ---- scenes
@@ -194,9 +185,11 @@ def content(case, prefix):
         fields = f"valueRange 0 {MOST[one['type']]}\n  opacityUnitDistance {one['unit']!r}"
         if "crop" in one:
             fields += f"\n  cropMin {words(one['crop'][0])} cropMax {words(one['crop'][1])}"
-        node = volume(f'ImageTexture3D {{ url "{data}" }}',
-                      f'OpacityMapVolumeStyle {{ transferFunction ImageTexture {{ url "{map_}" }} }}', "", fields,
-                      one["dimensions"])
+        style = f'OpacityMapVolumeStyle {{ transferFunction ImageTexture {{ url "{map_}" }} }}'
+        if "factor" in one:
+            style = (f"ComposedVolumeStyle {{ renderStyle [ {style} BoundaryEnhancementVolumeStyle {{ boundaryOpacity 0 "
+                     f"retainedOpacity {one['factor']!r} }} ] }}")
+        node = volume(f'ImageTexture3D {{ url "{data}" }}', style, "", fields, one["dimensions"])
         place = " ".join(f"{name} {words(value)}" for name, value in one["place"].items())
         parts.append(f"Transform {{ {place} children [\n{node}] }}\n")
     return f"Group {{ children [\n{''.join(parts)}] }}\n", files
@@ -205,18 +198,26 @@ def content(case, prefix):
 # ---- the truth
 
 
-def jobs(case, change=0):
-    """`change`: of all voxels, in pairs of ulps."""
+def with_other_voxels(r, case):
+    """A copy, for the raycaster alone, in which each voxel differs by at most what is allowed."""
+    volumes = [{**one, "type": "f64", "numbers": [
+        n / MOST[one["type"]] + r.choice((-1, 0, 0, 1)) * ULPS[one["type"]] for n in one["numbers"]]} for one in case["volumes"]]
+    return {**case, "volumes": volumes}
+
+
+def jobs(case, change=None):
+    """`change`: of the voxels of each volume, in parts of what is allowed."""
+    change = change or (0,) * len(case["volumes"])
     return [raycaster.volume(
         one["size"], one["numbers"], one["type"], dimensions=one["dimensions"],
         value_range=(0, MOST[one["type"]]), opacity_unit=one["unit"], matrix=raycaster.transform(**one["place"]),
-        crop=one.get("crop"), clip_planes=case.get("clips", ()), voxel_change=change * ULPS[one["type"]],
-        transfer=raycaster.texels(one["texels"])) for one in case["volumes"]]
+        crop=one.get("crop"), clip_planes=case.get("clips", ()), voxel_change=part * ULPS[one["type"]],
+        transfer=raycaster.texels(one["texels"], one.get("factor", 1))) for one, part in zip(case["volumes"], change)]
 
 
 def camera(case):
     return raycaster.camera((0, 0, 1), fieldOfView=(-0.45, -0.45, 0.45, 0.45) if case["parallel"] else 0.8)
 
 
-def truth(case, pixels, rays=None, change=0):
+def truth(case, pixels, rays=None, change=None):
     return raycaster.truth(jobs(case, change), camera(case), (pixels, pixels), pixels=rays, tolerance=1e-8)
