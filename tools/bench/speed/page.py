@@ -24,8 +24,8 @@ in perspective, as all other perspective views, are drawn smaller than the other
 Shaded: VTK's lighting formula, in plugray as an author's effect that promises `colour-only keeps-transparent`.
 
 In the charts the lower left is better. The numbers at both ends of a curve are its settings: steps in voxels, or the error that
-`cells` and the planner (plugray's own choice) were asked for. A method that does not go with a scene has no curve:
-integrals over segments and cells need an opacity map and nothing else.
+`cells` and the planner (plugray's own choice) were asked for. A method that does not go with a scene has no curve;
+[volumes](volumes.md#sampling) tells what each needs.
 
 Noise: two standard errors of what is compared, 10 % where there was one round alone. Where a row tells a 95 % interval, two
 programs took turns frame by frame in one process; the interval is that of the median of their ratios (bootstrap).
