@@ -23,6 +23,8 @@ enum {
 #define SHORTER 0.38196601125010515
 /* Of the estimate to the greatest difference. */
 #define SAFETY 2.0
+/* What no steps change: voxels and tables of 16 bits and 32-bit numbers. */
+#define ROUNDING (2.0 / 65535)
 
 /* ---- Which casts, and how they may step ---- */
 
@@ -196,7 +198,7 @@ static double estimate(plr_view *view, const plr_frame *small, int rung) {
     bool ends_early = false;
     for (size_t i = 0; i < view->volumes.cast_count; i++)
         ends_early = ends_early || !view->volumes.casts[i].everywhere;
-    return SAFETY * difference + (ends_early ? view->desc.error / 8 : 0);
+    return SAFETY * difference + ROUNDING + (ends_early ? view->desc.error / 8 : 0);
 }
 
 /* The next rung that may do: at best each has a quarter of the error of the one before. */
