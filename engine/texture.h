@@ -53,6 +53,7 @@ typedef struct plr_texture {
     bool stale_mipmaps;       /* they are made when the texture is bound with them */
     uint64_t revision;        /* of its nodes, when it was loaded */
     double steepness;         /* of voxels: the gradient that counts as 1; 0: not asked for yet */
+    bool numbers;             /* a table: texels are read one by one, never filtered */
     bool in_bricks;           /* never uploaded as a whole */
     bool keeps_image;         /* the image is wanted after the upload */
     bool kept;                /* made by the engine, and wanted again when the scene has changed */

@@ -171,7 +171,7 @@ void plr_texture_bind(plr_textures *t, plr_texture *texture, unsigned unit, plr_
         gl->GenerateMipmap(target);
         texture->stale_mipmaps = false;
     }
-    if (texture->kind == PLR_TEXTURE_3D_LABELS)
+    if (texture->kind == PLR_TEXTURE_3D_LABELS || texture->numbers)
         gl->BindSampler(unit, 0); /* the texture's own parameters: integers cannot be filtered */
     else
         gl->BindSampler(unit, use == PLR_USE_CLAMPED ? clamping(t) : texture->samplers[use]);

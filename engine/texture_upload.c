@@ -99,7 +99,8 @@ static void set_parameters(const plr_gl *gl, const plr_texture *texture, GLenum 
     static const GLenum wraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
     for (int i = 0; i < 3; i++)
         gl->TexParameteri(target, wraps[i], GL_CLAMP_TO_EDGE);
-    GLint filter = is_labels(texture) ? GL_NEAREST : GL_LINEAR; /* integers have no other */
+    /* integers have no other */
+    GLint filter = is_labels(texture) || texture->numbers ? GL_NEAREST : GL_LINEAR;
     gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
     gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
     gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, (GLint)texture->image.mipmaps);

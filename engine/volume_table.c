@@ -356,9 +356,24 @@ static void join(bin *a, const bin *b) {
     a->extinction = fmax(a->extinction, b->extinction);
 }
 
+/* From where to where, between two bins, something can be seen: in one number, the ends away from
+ * each other, by which filters round. */
+static float seen_within(const plr_table *t, int low, int high) {
+    double last = t->nodes - 1, steps = PLR_TABLE_SEEN - 1;
+    uint32_t from = (uint32_t)floor((double)low / PLR_TABLE_RANGES * last);
+    uint32_t to = (uint32_t)ceil((high + 1.0) / PLR_TABLE_RANGES * last);
+    while (from < to && t->visible[from + 1] == t->visible[from])
+        from++;
+    while (to > from && t->visible[to - 1] == t->visible[to])
+        to--;
+    return (float)(fmax(floor(from / last * steps - 0.1), 0) * PLR_TABLE_SEEN +
+                   fmin(ceil(to / last * steps + 0.1), steps));
+}
+
 /* For all pairs of bins what holds in them and between them. What lies at the sides of a bin counts
  * in both it and its neighbours. Returns the greatest change of slope. */
-static double fill_ranges(const float *texels, uint32_t count, uint32_t looks, float *out) {
+static double fill_ranges(const plr_table *t, const float *texels, uint32_t count, uint32_t looks,
+                          float *out) {
     bin bins[PLR_TABLE_RANGES];
     double most = 0;
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
@@ -382,7 +397,7 @@ static double fill_ranges(const float *texels, uint32_t count, uint32_t looks, f
             at[0] = (float)slope;
             at[1] = (float)all.extinction;
             at[2] = (float)change;
-            at[3] = 0;
+            at[3] = seen_within(t, i, j);
         }
     }
     return most;
@@ -464,11 +479,13 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     plr_image image = make_image(arena, t->nodes, 4);
     fill_sums(t, texels, count, wish->slack, image.samples);
     t->sums = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
+    t->sums->numbers = true;
     image = make_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);
     double slope =
-        fill_ranges(texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), image.samples);
+        fill_ranges(t, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), image.samples);
     t->tame = slope <= MOST_SLOPE && is_whole(texels, count);
     t->ranges = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
+    t->ranges->numbers = true;
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
     image = make_image(arena, t->nodes, t->nodes);
     fill(t, texels, count, image.samples);

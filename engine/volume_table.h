@@ -23,6 +23,9 @@ typedef struct plr_table {
 
 /* Values are told apart that finely in `ranges`; the same in GLSL. */
 #define PLR_TABLE_RANGES 64
+/* From where to where something can be seen is told that finely, both in one number; the same in
+ * GLSL. */
+#define PLR_TABLE_SEEN 4096
 
 /* Optical depths per reference length are not greater: nothing shines through. */
 #define PLR_MOST_DEPTH 1e4

@@ -14,53 +14,109 @@ uniform vec2 seenValues;  /* outside of this open interval values are clear */
 uniform sampler2D sums;   /* integrals of colour * extinction and of extinction up to each node of values; the
                              function there; opaque values below and above the span behind; what the
                              first lost by rounding */
-uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour */
+uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour; from where to where
+                             something can be seen */
 
 
+const float SEEN_STEPS = 4096.0; /* of two numbers in one: PLR_TABLE_SEEN */
 const float RANGES = 64.0; /* the same in C: PLR_TABLE_RANGES */
 const float VALUE_UNIT = 1.0 / 8388608.0; /* values are not followed finer */
 
 vec3 next_face;  /* along each axis, in cells */
-float cubic[4];  /* the value over the piece of the ray in the cell, from 0 to 1 */
-float last_value;
-/* At the end of the part of a piece before. */
-float part_value;
-bool is_clear; /* nothing can be seen in the piece, which may then span many cells */
+vec3 face_step;  /* to the one behind it */
+float cell_values[9]; /* at the ends of the cells that are looked at together, CHUNK, */
+float first_values[8]; /* and at a third and at two thirds of each */
+float second_values[8];
+float cubic[4];       /* the value over one of them, from 0 to 1 */
 #if HAS_WALL
-vec4 walls;    /* what is not between the first two is opaque; towards them opacity rises to 1 from the others on */
-float wall_at; /* where the piece meets an opaque value; beyond 1: nowhere */
+vec2 cell_walls[8];   /* what is not between these is opaque */
+float wall_at[8];     /* where in a cell that is met; beyond 1: nowhere */
 #endif
 
 /* Along each axis the first face that lies behind t. */
 void find_faces(const in float t) {
-    vec3 forward = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(cell_direction, vec3(0.0)));
-    next_face = floor(cell_origin + t * cell_direction) - forward;
+    face_step = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(cell_direction, vec3(0.0)));
+    next_face = floor(cell_origin + t * cell_direction) - face_step;
     for (int i = 0; i < 3; i++)
-        next_face += forward * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(t)));
+        next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(t)));
 }
 
-void PLUG_volume_cells_begin(const in float t) {
-    find_faces(t);
-    last_value = value_at(t);
-}
-
-/* How far the ray stays in the cell that it is in, or where nothing can be seen. */
-void PLUG_volume_cell(const in float t, inout float end) {
+#if LEAPS
+/* How far nothing can be seen; no further than t if something may be. */
+void PLUG_volume_cells_leap(const in float t, inout float end) {
     if (!is_inside(t))
         return;
-    vec3 to_faces = (next_face - cell_origin) * cell_inverse;
-    float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
-#if LEAPS
+    find_faces(t);
     vec3 corner;
     /* the cell by its faces: rounding takes none for its neighbour, however short the ray is in it */
-    vec3 cell = next_face - mix(vec3(-0.5), vec3(0.5), greaterThanEqual(cell_direction, vec3(0.0)));
-    is_clear = leap_at(cell, corner) > 0.0;
-    if (is_clear) {
-        to_faces = (corner - cell_origin) * cell_inverse;
-        to_face = max(to_face, min(min(to_faces.x, to_faces.y), to_faces.z));
-    }
+    float blocks = leap_at(next_face - 0.5 * face_step, corner);
+    vec3 ends = (corner - cell_origin) * cell_inverse;
+    end = min(end, blocks > 0.0 ? min(min(ends.x, ends.y), ends.z) : t);
+}
 #endif
-    end = max(min(end, to_face), t);
+
+/* Cells that are looked at together begin. */
+void PLUG_volume_cells_begin(const in float t) {
+    find_faces(t);
+    cell_values[0] = value_at(t);
+}
+
+/* How far the ray stays in the cell that it is in. */
+void PLUG_volume_cell(const in float t, inout float end) {
+    vec3 to_faces = (next_face - cell_origin) * cell_inverse;
+    float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
+    end = is_inside(t) ? max(min(end, to_face), t) : end;
+}
+
+/* Looks at cell k: whether anything can be seen there. */
+void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t, const in float end) {
+    float span = end - t;
+    float v0 = cell_values[k], v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
+    next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(end)));
+    first_values[k] = v1;
+    second_values[k] = v2;
+    cell_values[k + 1] = v3;
+    /* Bernstein's coefficients enclose the cubic */
+    float d1 = v1 - v0, d2 = v2 - v1, d3 = v3 - v2;
+    float b1 = v0 + (11.0 * d1 - 7.0 * d2 + 2.0 * d3) / 6.0, b2 = v3 - (11.0 * d3 - 7.0 * d2 + 2.0 * d1) / 6.0;
+    bool seen = max(max(v0, v3), max(b1, b2)) > seenValues.x && min(min(v0, v3), min(b1, b2)) < seenValues.y;
+    /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
+     * rounded to those behind. So that cells are clear here where a leap would pass over them. */
+    bool clear = v1 == 0.0 && v2 == 0.0 && seenValues.x >= 0.0;
+    if (seen && !clear && span > 0.0 && is_inside(t))
+        visible |= 1u << uint(k);
+}
+
+/* The value over cell k. */
+void take_cubic(const in int k) {
+    /* of differences: what is even stays so */
+    float d1 = first_values[k] - cell_values[k], d2 = second_values[k] - first_values[k];
+    float d3 = cell_values[k + 1] - second_values[k];
+    cubic[0] = cell_values[k];
+    cubic[1] = 0.5 * (11.0 * d1 - 7.0 * d2 + 2.0 * d3);
+    cubic[2] = 4.5 * (3.0 * d2 - 2.0 * d1 - d3);
+    cubic[3] = 4.5 * (d1 - 2.0 * d2 + d3);
+}
+
+float value_in(const in float u) {
+    return ((cubic[3] * u + cubic[2]) * u + cubic[1]) * u + cubic[0];
+}
+
+/* Narrows a part of a piece, from x to y, to where its value may be within some: there the line between its ends is, but
+ * for three quarters of what Bernstein's coefficients are off that line (clipping by a fat line: Sederberg,
+ * Nishita 1990). */
+void clip_piece(const in vec2 values, inout vec2 part) {
+    float size = part.y - part.x, first = value_in(part.x), last = value_in(part.y);
+    vec2 slopes = (3.0 * cubic[3] * part + 2.0 * cubic[2]) * part + cubic[1];
+    float rise = last - first;
+    vec2 off = vec2(size * slopes.x - rise, rise - size * slopes.y) / 3.0;
+    float above = 0.75 * max(max(off.x, off.y), 0.0), below = 0.75 * min(min(off.x, off.y), 0.0);
+    if (abs(rise) < 1.0e-6)
+        return;
+    vec2 ends = (values + vec2(-above, -below) - first) / rise;
+    ends = rise < 0.0 ? ends.yx : ends;
+    ends = clamp(ends + vec2(-1.0e-5, 1.0e-5), 0.0, 1.0);
+    part = ends.x < ends.y ? part.x + ends * size : part.xx;
 }
 
 /* A node of the transfer function: colour and opacity, and with it what comes before. Beyond the outermost
@@ -70,6 +126,12 @@ struct Place {
     float beyond; /* in nodes */
 };
 
+/* Row by row what belongs to a node: by texture(), which costs less than texelFetch() where there are no
+ * levels to choose from. */
+vec4 sums_at(const in int node, const in float row) {
+    return texture(sums, vec2((float(node) + 0.5) / float(textureSize(sums, 0).x), (row + 0.5) * 0.25));
+}
+
 Place place_of(const in float value) {
     int last = textureSize(sums, 0).x - 1;
     float place = value * float(last);
@@ -78,7 +140,7 @@ Place place_of(const in float value) {
 }
 
 vec4 function_in(const in int node, const in float beyond) {
-    return mix(texelFetch(sums, ivec2(node, 1), 0), texelFetch(sums, ivec2(node + 1, 1), 0), beyond);
+    return mix(sums_at(node, 1.0), sums_at(node + 1, 1.0), beyond);
 }
 
 #if GENTLE
@@ -90,7 +152,7 @@ vec4 mean_within(const in int node, const in float from, const in float to) {
 /* The mean of colour * extinction and of extinction over a part of what is between two nodes. Clearness,
  * 1 - opacity, runs from m (1 - r) to m (1 + r); for r near 0 the closed forms are cancelled, their series serve. */
 vec4 mean_within(const in int node, const in float from, const in float to) {
-    vec4 first = texelFetch(sums, ivec2(node, 1), 0), last = texelFetch(sums, ivec2(node + 1, 1), 0);
+    vec4 first = sums_at(node, 1.0), last = sums_at(node + 1, 1.0);
     vec4 a = mix(first, last, from), b = mix(first, last, to);
     vec2 ends = max(1.0 - vec2(first.a, last.a), 0.0);
     float least = 0.5 * min(ends.x, ends.y);
@@ -119,8 +181,8 @@ vec4 exact_mean(const in float from, const in float to) {
     vec4 mean = mean_within(low.node, low.beyond, in_one ? high.beyond : 1.0);
     if (!in_one) {
         int behind = low.node + 1;
-        vec4 between = (texelFetch(sums, ivec2(high.node, 0), 0) - texelFetch(sums, ivec2(behind, 0), 0)) +
-                       (texelFetch(sums, ivec2(high.node, 3), 0) - texelFetch(sums, ivec2(behind, 3), 0));
+        vec4 between = (sums_at(high.node, 0.0) - sums_at(behind, 0.0)) +
+                       (sums_at(high.node, 3.0) - sums_at(behind, 3.0));
         float rest = 1.0 - low.beyond;
         mean = mean * rest + mean_within(high.node, 0.0, high.beyond) * high.beyond +
                between * float(textureSize(sums, 0).x - 1);
@@ -130,18 +192,14 @@ vec4 exact_mean(const in float from, const in float to) {
 }
 
 #if HAS_WALL
-float value_in(const in float u) {
-    return ((cubic[3] * u + cubic[2]) * u + cubic[1]) * u + cubic[0];
-}
-
-bool is_opaque(const in float value) {
+bool is_opaque(const in float value, const in vec2 walls) {
     return value <= walls.x || value >= walls.y;
 }
 
 /* Where the cubic first takes an opaque value: it is cut where it turns, and in the first part that ends
  * in one is the place, by Newton's method, halving where that leads astray. */
-float find_wall() {
-    if (is_opaque(cubic[0]))
+float find_wall(const in vec2 walls) {
+    if (is_opaque(cubic[0], walls))
         return 0.0;
     float a = 3.0 * cubic[3], b = cubic[2], c = cubic[1];
     float root = sqrt(max(b * b - a * c, 0.0)), q = -(b + (b < 0.0 ? -root : root));
@@ -149,8 +207,8 @@ float find_wall() {
     vec2 turns = vec2(min(one, other), max(one, other));
     turns = mix(turns, vec2(1.0), lessThanEqual(turns, vec2(0.0)));
     turns = min(vec2(min(turns.x, turns.y), max(turns.x, turns.y)), 1.0);
-    bool first = is_opaque(value_in(turns.x)), second = is_opaque(value_in(turns.y));
-    if (!first && !second && !is_opaque(value_in(1.0)))
+    bool first = is_opaque(value_in(turns.x), walls), second = is_opaque(value_in(turns.y), walls);
+    if (!first && !second && !is_opaque(value_in(1.0), walls))
         return 2.0;
     float low = first ? 0.0 : second ? turns.x : turns.y;
     float high = first ? turns.x : second ? turns.y : 1.0;
@@ -169,90 +227,82 @@ float find_wall() {
 }
 #endif
 
-/* The value over the piece, and what its integral errs by if it is not cut: x; y: its
- * optical depth at most; z: change of colour. At most how many parts make sense; where the first volume is opaque. */
-void PLUG_volume_cell_fit(const in float t, const in float end, inout vec3 need, inout float most,
-                          inout float opaque_at) {
-    float span = end - t;
-    float v0 = last_value, v3 = value_at(end);
-    find_faces(end);
-    last_value = v3;
+/* What cell k needs. */
+void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, inout CellNeed need) {
 #if HAS_WALL
-    wall_at = 2.0;
+    wall_at[k] = 2.0;
 #endif
-#if LEAPS
-    if (is_clear)
-        return;
-#endif
-    float v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0));
-    /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
-     * rounded to those behind. So that cells are clear here where a leap would pass over them. */
-    is_clear = v1 == 0.0 && v2 == 0.0 && seenValues.x >= 0.0;
-    if (is_clear)
-        return;
-    part_value = v0;
-    /* of differences: what is even stays so */
-    float d1 = v1 - v0, d2 = v2 - v1, d3 = v3 - v2;
-    cubic[0] = v0;
-    cubic[1] = 0.5 * (11.0 * d1 - 7.0 * d2 + 2.0 * d3);
-    cubic[2] = 4.5 * (3.0 * d2 - 2.0 * d1 - d3);
-    cubic[3] = 4.5 * (d1 - 2.0 * d2 + d3);
     if (!is_inside(t))
         return;
-    /* Bernstein's coefficients enclose the cubic */
+    take_cubic(k);
+    float v0 = cubic[0], v3 = cell_values[k + 1];
     float b1 = v0 + cubic[1] / 3.0, b2 = v0 + (2.0 * cubic[1] + cubic[2]) / 3.0;
     float low = min(min(v0, v3), min(b1, b2)), high = max(max(v0, v3), max(b1, b2));
-    float bend = max(abs(2.0 * cubic[2]), abs(2.0 * cubic[2] + 6.0 * cubic[3]));
-    float depth = span * depth_ratio;
     float slopes = 0.0;
 #if HAS_WALL
-    walls = texelFetch(sums, ivec2(place_of(v0).node, 2), 0);
+    vec4 walls = sums_at(place_of(v0).node, 2.0);
+    cell_walls[k] = walls.xy;
     float apart = min(low - walls.x, walls.y - high);
     if (apart <= 0.0) {
-        wall_at = find_wall();
-        opaque_at = min(opaque_at, wall_at);
-        float u = min(wall_at, 1.0);
+        float u = find_wall(walls.xy);
+        wall_at[k] = u;
+        need.opaque_at = min(need.opaque_at, u);
+        u = min(u, 1.0);
         apart = abs((3.0 * cubic[3] * u + 2.0 * cubic[2]) * u + cubic[1]);
     }
-    /* Towards an opaque value extinction is the logarithm of the distance to it, and its slope one over that.
-     * Rays that come to it nearly at a tangent are as those beside them. */
-    slopes = min(1.0 / max(apart, 1.0e-9), 64.0 / max(bend, 1.0e-9));
     low = max(low, walls.x);
     high = min(high, walls.y);
-    slopes = low < walls.z || high > walls.w ? slopes : 0.0;
+    /* Towards an opaque value extinction is the logarithm of the distance to it, and its slope one over that. */
+    slopes = low < walls.z || high > walls.w ? 1.0 / max(apart, 1.0e-9) : 0.0;
 #endif
-    vec4 range = texelFetch(ranges, ivec2(clamp(vec2(low, high), 0.0, 1.0 - 0.5 / RANGES) * RANGES), 0);
+    vec4 range = texture(ranges, clamp(vec2(low, high), 0.0, 1.0));
+    vec2 part = vec2(0.0, 1.0);
+#if !MIXES
+    float first_seen = floor(range.w / SEEN_STEPS);
+    vec2 seen = vec2(first_seen, range.w - first_seen * SEEN_STEPS) / (SEEN_STEPS - 1.0);
+    /* values beyond 0 and 1 are those; and cubics round */
+    seen += mix(vec2(-1.0e-5, 1.0e-5), vec2(-1.0, 1.0), vec2(lessThanEqual(vec2(seen.x, 1.0 - seen.y), vec2(0.0))));
+    clip_piece(seen, part);
+    clip_piece(seen, part);
+    need.part = part;
+#endif
+    float size = part.y - part.x, depth = size * (end - t) * depth_ratio;
+    vec2 bends = abs(2.0 * cubic[2] + 6.0 * cubic[3] * part);
+    float bend = size * size * max(bends.x, bends.y);
+    /* rays that come to what is opaque nearly at a tangent are as those beside them */
+    slopes = min(slopes, 64.0 / max(bend, 1.0e-9));
 #if MIXES
     /* colours of volumes in one place are as unlike as can be */
-    if (need.y > 0.0 && range.y > 0.0)
-        need.z = 1.0;
+    if (need.depth > 0.0 && range.y > 0.0)
+        need.change = 1.0;
 #endif
-    need.xy += vec2(depth * (range.x + slopes) * bend * 0.016, depth * range.y);
-    need.z = max(need.z, range.z);
-    most = max(most, ceil(sqrt(bend / (8.0 * VALUE_UNIT))));
+    need.error += depth * (range.x + slopes) * bend * 0.016;
+    need.depth += depth * range.y;
+    need.change = max(need.change, range.z);
+    need.most = max(need.most, ceil(sqrt(bend / (8.0 * VALUE_UNIT))));
 }
 
-/* What lies along a part of the piece, which ends at u. */
-void PLUG_volume_cell_part(inout VolumeMix mixed, const in float t, const in float u,
-                           const in float part, const in float span) {
-    float from = part_value;
-    float to = ((cubic[3] * u + cubic[2]) * u + cubic[1]) * u + cubic[0];
-    part_value = to;
-    if (!is_inside(t) || is_clear)
+/* What lies along a part of cell k, which begins at t, from u to u_end of it. */
+void PLUG_volume_cell_part(inout VolumeMix mixed, const in int k, const in float t, const in float u,
+                           const in float u_end, const in float span) {
+    if (!is_inside(t))
         return;
-    float shift = (2.0 * cubic[2] + 6.0 * cubic[3] * (u - 0.5 * part)) * part * part / 12.0;
+    take_cubic(k);
+    float from = value_in(u), to = value_in(u_end), part = u_end - u;
+    float shift = (2.0 * cubic[2] + 3.0 * cubic[3] * (u + u_end)) * part * part / 12.0;
 #if HAS_WALL
     /* the line keeps on its side of what is opaque */
-    shift = clamp(shift, max(from, to) - walls.y, min(from, to) - walls.x);
+    shift = clamp(shift, max(from, to) - cell_walls[k].y, min(from, to) - cell_walls[k].x);
 #endif
     mixed.sum += exact_mean(from - shift, to - shift) * (span * depth_ratio);
 }
 
 #if HAS_WALL
-/* The piece ends here, in opaque values of one volume or several. */
-void PLUG_volume_cell_wall(inout vec4 wall, const in float t, const in float u) {
-    if (!is_inside(t) || is_clear || wall_at > u)
+/* Cell k ends at u, in opaque values of one volume or several. */
+void PLUG_volume_cell_wall(inout vec4 wall, const in int k, const in float t, const in float u) {
+    if (!is_inside(t) || wall_at[k] > u)
         return;
+    take_cubic(k);
     Place place = place_of(clamp(value_in(u), 0.0, 1.0));
     wall += vec4(function_in(place.node, place.beyond).rgb, 1.0);
 }

@@ -33,11 +33,37 @@ out vec4 plugray_FragColor;
 const int MOST_EVENTS = 4096; /* in one step */
 #endif
 
+#if SEGMENTS
+const int CHUNK = 8; /* segments or cells that are looked at together; the same in segments.glsl and cells.glsl */
+#endif
 #if CELLS
 uniform float errorAllowed; /* of the integral along a ray */
 const float MOST_PARTS = 256.0; /* of a piece in one cell */
-#elif SEGMENTS
-const int CHUNK = 8; /* segments that are looked at together; the same in segments.glsl */
+
+/* What a piece of the ray in one cell needs. */
+struct CellNeed {
+    float error;  /* of its integrals, if it is not cut */
+    float depth;  /* optical depth, at most */
+    float change; /* of colour */
+    float most;   /* how many parts make sense */
+    vec2 part;    /* of the piece, where something can be seen */
+    float opaque_at; /* where in it the first volume is opaque; beyond 1: nowhere */
+};
+
+float piece_t[CHUNK + 1];
+CellNeed piece_need[CHUNK];
+
+/* Into how many parts a piece is cut that may err by `share`, where so much shines through. What it needs beyond
+ * comes from the purse; what it does not need goes there. */
+float part_count(const in CellNeed need, const in float share, const in float through, inout float purse) {
+    float order = 0.5 * through * need.depth * min(need.depth, 2.0) * need.change;
+    float square = through * need.error + order;
+    float allowed = share + 0.125 * max(purse, 0.0);
+    float most = max(need.most, ceil(sqrt(order / allowed)));
+    float parts = clamp(min(ceil(sqrt(square / allowed)), most), 1.0, MOST_PARTS);
+    purse += share - square / (parts * parts);
+    return parts;
+}
 #endif
 
 #if SKIPS
@@ -237,34 +263,65 @@ void main() {
         /* Of the error that the ray may have, a part is for each length alike; the rest is a purse for
          * places that need more. */
         float rate = 0.5 * errorAllowed / max(t_next - t, 1.0e-30);
-        float from = t;
-        /* PLUG: volume_cells_begin (from) */
+        float from = t, spent_until = t;
         while (from < t_next && !ended) {
-            float to = t_next;
-            /* PLUG: volume_cell (from, to) */
-            vec3 need = vec3(0.0);
-            float most = 1.0, opaque_at = 2.0;
-            /* PLUG: volume_cell_fit (from, to, need, most, opaque_at) */
-#if HAS_WALL
-            float piece = min(opaque_at, 1.0);
-#else
-            const float piece = 1.0;
+#if LEAPS
+            bool leapt = true;
+            while (leapt && from < t_next) {
+                float leap = t_next;
+                /* PLUG: volume_cells_leap (from, leap) */
+                leapt = leap > from;
+                from = max(from, leap);
+            }
 #endif
-            float through = 1.0 - accumulated.a;
-            float order = 0.5 * through * need.y * min(need.y, 2.0) * need.z;
-            float square = through * need.x + order;
-            float share = rate * piece * (to - from), allowed = share + 0.125 * max(purse, 0.0);
-            float parts = ceil(sqrt(square / allowed));
-            most = max(most, ceil(sqrt(order / allowed)));
-            parts = need.y > 0.0 ? min(max(min(parts, most), 1.0), MOST_PARTS) : 0.0;
-            if (parts > 0.0)
-                purse -= max(square / (parts * parts) - share, 0.0);
-            float part = piece / max(parts, 1.0), span = part * (to - from);
-            for (float k = 0.0; k < parts; k += 1.0) {
+            /* Most cells cannot be seen. That is found out first for some, at the least cost; then what those
+             * need that can; then the parts of all are worked through in one loop: neighbouring rays wait for
+             * each other once, not cell by cell. */
+            uint visible = 0u;
+            /* PLUG: volume_cells_begin (from) */
+            for (int k = 0; k < CHUNK; k++) {
+                float to = t_next;
+                /* PLUG: volume_cell (from, to) */
+                /* PLUG: volume_cell_look (visible, k, from, to) */
+                piece_t[k] = from;
+                from = to;
+            }
+            piece_t[CHUNK] = from;
+            uint seen = 0u;
+            while (visible != 0u) {
+                int k = lowest_bit(visible);
+                visible &= visible - 1u;
+                CellNeed need = CellNeed(0.0, 0.0, 0.0, 1.0, vec2(0.0, 1.0), 2.0);
+                float t_cell = piece_t[k], t_end = piece_t[k + 1];
+                /* PLUG: volume_cell_fit (k, t_cell, t_end, need) */
+#if HAS_WALL
+                need.part.y = max(min(need.part.y, need.opaque_at), need.part.x);
+#endif
+                piece_need[k] = need;
+                if (need.depth > 0.0 || need.opaque_at <= 1.0)
+                    seen |= 1u << uint(k);
+            }
+            int k = 0;
+            float part = 0.0, parts = 0.0;
+            while (true) {
+                if (part >= parts) {
+                    if (seen == 0u)
+                        break;
+                    k = lowest_bit(seen);
+                    seen &= seen - 1u;
+                    part = 0.0;
+                    /* what is clear has had its share, too */
+                    parts = part_count(piece_need[k], rate * (piece_t[k + 1] - spent_until), 1.0 - accumulated.a, purse);
+                    spent_until = piece_t[k + 1];
+                }
+                vec2 range = piece_need[k].part;
+                float u = mix(range.x, range.y, part / parts), u_end = mix(range.x, range.y, (part + 1.0) / parts);
+                part += 1.0;
+                float t_piece = piece_t[k];
+                float span = (piece_t[k + 1] - t_piece) * (u_end - u);
+                float begin = t_piece + u * (piece_t[k + 1] - t_piece);
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
-                float u = (k + 1.0) * part;
-                float begin = from + k * span;
-                /* PLUG: volume_cell_part (mixed, from, u, part, span) */
+                /* PLUG: volume_cell_part (mixed, k, t_piece, u, u_end, span) */
                 VolumeSample s;
                 vec4 color = volume_mix_color(mixed);
 #if READS(position_eye)
@@ -284,37 +341,39 @@ void main() {
 #if WRITES_DEPTH
                 note_end(accumulated.a, begin + span);
 #endif
-            }
 #if HAS_WALL
-            if (opaque_at <= 1.0) {
-                float met = from + opaque_at * (to - from);
-                vec4 wall = vec4(0.0);
-                /* PLUG: volume_cell_wall (wall, from, opaque_at) */
-                VolumeSample s;
-                vec4 color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));
+                if (part >= parts && piece_need[k].opaque_at <= 1.0) {
+                    float opaque_at = piece_need[k].opaque_at;
+                    float met = t_piece + opaque_at * (piece_t[k + 1] - t_piece);
+                    vec4 wall = vec4(0.0);
+                    /* PLUG: volume_cell_wall (wall, k, t_piece, opaque_at) */
+                    color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));
 #if READS(position_eye)
-                s.position_eye = origin_eye + met * direction_eye;
+                    s.position_eye = origin_eye + met * direction_eye;
 #endif
 #if READS(step_length)
-                s.step_length = 0.0;
+                    s.step_length = 0.0;
 #endif
 #if READS(volume)
-                s.volume = -1;
+                    s.volume = -1;
 #endif
-                /* PLUG: volume_composite (accumulated, color, s) */
+                    /* PLUG: volume_composite (accumulated, color, s) */
 #if PLUG_USED(volume_ray_end)
-                if (depth >= NOWHERE)
-                    depth = met;
+                    if (depth >= NOWHERE)
+                        depth = met;
 #endif
 #if WRITES_DEPTH
-                note_end(accumulated.a, met);
+                    note_end(accumulated.a, met);
 #endif
-            }
+                }
 #endif
 #if EARLY_END
-            ended = is_ended(accumulated.a);
+                if (is_ended(accumulated.a)) {
+                    ended = true;
+                    break;
+                }
 #endif
-            from = to;
+            }
         }
 #else
 #if MIXES

@@ -78,7 +78,7 @@ void style_mean(inout vec4 mean, const in float t, const in float span, const in
 float leap_at(const in vec3 place, out vec3 corner) {
     vec3 block = floor(place / BLOCK_CELLS);
     ivec3 texel = clamp(ivec3(block), ivec3(0), textureSize(leaps, 0) - 1);
-    float blocks = float(texelFetch(leaps, texel, 0).r);
+    float blocks = float(texture(leaps, (vec3(texel) + 0.5) / vec3(textureSize(leaps, 0))).r);
     corner = BLOCK_CELLS *
              (block + mix(vec3(1.0 - blocks), vec3(blocks), greaterThanEqual(cell_direction, vec3(0.0))));
     return blocks;
