@@ -17,7 +17,8 @@ typedef struct span {
 } span;
 
 static void at_value(const float *texels, uint32_t count, double value, double color[4]) {
-    double place = value * (count - 1);
+    double place = value * (count - 1), near = round(place);
+    place = fabs(place - near) < 1e-9 * count ? near : place; /* texels are met */
     uint32_t i = place >= count - 1 ? count - 2 : (uint32_t)place;
     double f = place - i;
     for (int c = 0; c < 4; c++)

@@ -271,6 +271,12 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
     float bend = size * size * max(bends.x, bends.y);
     /* rays that come to what is opaque nearly at a tangent are as those beside them */
     slopes = min(slopes, 64.0 / max(bend, 1.0e-9));
+    /* a part's line reaches farther than its values do: there the function counts, too, if any is seen */
+    vec2 reach = vec2(low, high) + vec2(-bend, bend) / 12.0;
+#if HAS_WALL
+    reach = vec2(max(reach.x, walls.x), min(reach.y, walls.y));
+#endif
+    range.xyz = range.y > 0.0 ? texture(ranges, clamp(reach, 0.0, 1.0)).xyz : vec3(0.0);
 #if MIXES
     /* colours of volumes in one place are as unlike as can be */
     if (need.depth > 0.0 && range.y > 0.0)

@@ -326,6 +326,18 @@ def main():
             suite.equal(name, draw(suite, [case])[1], expected)
 
     @suite.case
+    def reach():
+        "a line of the same mean reaches farther than the values do"
+        case = {"parallel": False, "error": "1/1023", "volumes": [
+            {"size": [1, 3, 3], "type": "f32", "unit": 0, "dimensions": [0.653, 0.51, 0.694],
+             "numbers": fuzz_cases.single([0, 0, 0, 0, 0.10922516882419586, 0, 0.6354807615280151, 0.6354807615280151, 0]),
+             "place": {"translation": [-0.14049696226621966, -0.015217499214771724, -0.09937378349042886],
+                       "rotation": [0.5478240965773891, 0.6876940241281935, 0.11742102859805036, 3.6015237816564483]},
+             "texels": [[1, 1, 1, 0.99 if i == 4 else 0] for i in range(64)]}]}
+        pictures, bounded = draw(suite, [case])
+        suite.check("bounded, and within", bounded and judge(case, pictures[0]).ratio < 0.5)
+
+    @suite.case
     def random_volumes():
         "random volumes"
         for key, cases in batches(arguments.cases, arguments.seed):
