@@ -84,7 +84,7 @@ static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
         size_t offset;
     } textures[] = {{"labels", offsetof(plr_volume_state, labels)},
                     {"integrals", offsetof(plr_volume_state, integrals)},
-                    {"gradients", offsetof(plr_volume_state, gradients)},
+                    {"voxelGradients", offsetof(plr_volume_state, gradients)},
                     {"places", offsetof(plr_volume_state, places)},
                     {"sums", offsetof(plr_volume_state, sums)},
                     {"ranges", offsetof(plr_volume_state, ranges)},

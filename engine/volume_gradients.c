@@ -75,7 +75,7 @@ void plr_cast_make_gradients(plr_view *view, plr_cast *cast) {
         view->engine ? cast->pass.program : NULL; /* else nothing is drawn */
     for (size_t i = 0; program && i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
-        if (symbol->effect == PLR_NO_EFFECT || strcmp(symbol->name, "gradients") != 0 ||
+        if (symbol->effect == PLR_NO_EFFECT || strcmp(symbol->name, "voxelGradients") != 0 ||
             !cast->pass.recipe.effects.items[symbol->effect].builtin)
             continue;
         size_t volume = cast->pass.recipe.bindings.items[symbol->effect].volume;

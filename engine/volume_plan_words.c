@@ -74,14 +74,14 @@ static plr_choice say_error(plr_view *view, const plr_plan *plan) {
               "steps"};
 }
 
-/* Built-in effects on volumes of the cast that are styles, or else lights. */
+/* Built-in effects on volumes of the cast that are styles, or else lights (a headlight is no node).
+ */
 static size_t count_effects(const plr_cast *cast, bool styles) {
     size_t count = 0;
     for (size_t i = 0; i < cast->pass.recipe.effects.count; i++) {
         const plr_effect *effect = &cast->pass.recipe.effects.items[i];
-        const plr_node *node = cast->pass.recipe.bindings.items[i].node;
-        count += effect->builtin && node &&
-                 plr_node_is(node, styles ? "X3DVolumeRenderStyleNode" : "X3DLightNode");
+        const char *last = effect->name ? strstr(effect->name, styles ? "Style" : "Light") : NULL;
+        count += effect->builtin && last && strlen(last) == strlen("Style");
     }
     return count;
 }
@@ -113,7 +113,7 @@ static plr_choice say_gradients(const plr_cast *cast) {
     const plr_program *program = cast->pass.program;
     bool held = false;
     for (size_t i = 0; program && i < plr_program_symbol_count(program); i++)
-        held = held || strcmp(plr_program_symbol(program, i)->name, "gradients") == 0;
+        held = held || strcmp(plr_program_symbol(program, i)->name, "voxelGradients") == 0;
     const char *text = program ? plr_program_text(program, PLR_FRAGMENT, NULL) : NULL;
     if (held)
         return (plr_choice){"gradients", "held",

@@ -57,10 +57,10 @@ float scalar_at(const in vec3 position) {
 /* The trilinear interpolation of central differences at voxel centres, value per unit length in own
  * coordinates. */
 #if defined(HAS_GRADIENTS) && HAS_GRADIENTS
-uniform sampler3D gradients; /* at the centres, as differences from voxel to voxel */
+uniform sampler3D voxelGradients; /* at the centres, as differences from voxel to voxel */
 
 vec3 gradient_at(const in vec3 position) {
-    return texture(gradients, position).xyz * (voxel_count() / dimensions);
+    return texture(voxelGradients, position).xyz * (voxel_count() / dimensions);
 }
 #else
 /* Differences over exactly two voxels, clamped to the outermost centres, commute with the interpolation. */

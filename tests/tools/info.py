@@ -212,15 +212,19 @@ check(knots[0]["color"][2] > knots[0]["color"][0] and knots[-1]["color"][0] > kn
 plugray.write("v.nrrd", data)
 result, text = info(scene("v.nrrd", "OpacityMapVolumeStyle { }"))
 plan = {choice["about"]: (choice["chosen"], choice["why"]) for choice in result["plan"]}
-check_equal(sorted(plan), ["early termination", "error", "sampling", "skipping", "storage"], "every choice of the plan is told")
+check_equal(sorted(plan), ["early termination", "error", "gradients", "lights", "sampling", "skipping",
+                            "storage", "styles"], "every choice of the plan is told")
 check("plan of volumes:" in text and all(f"    {about}: {chosen}; {why}" in text for about, (chosen, why) in plan.items()),
       "in words, too", text)
 (program,) = result["programs"]
 check_equal(program["gradients"], 0, "no gradient where nobody asks")
 check_equal([e for m in ("normal_eye", "gradient") for e in program["members"][m]["read_by"]], [], "nobody reads one")
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's")
-check_equal({f["sampler"]: f["count"] for f in program["fetched"]}, 
-            {"voxels": 4, "leaps": 1, "ranges": 1, "sums": 1}, "a cubic in a cell, what bounds it, and its integrals")
+fetched = {f["sampler"]: f["count"] for f in program["fetched"]}
+check_equal((sorted(fetched), fetched["voxels"], fetched["ranges"], fetched["leaps"]),
+            (["leaps", "ranges", "sums", "voxels"], 4, 1, 1), "a cubic in a cell, what bounds it, and its integrals")
+check_equal((plan["gradients"][0], plan["lights"][0], plan["styles"][0]), ("none", "0", "in tables"),
+            "no gradient, light or style at samples")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
 
 def skipping(promise):
@@ -232,7 +236,9 @@ def skipping(promise):
 
 
 check_equal(skipping(""), ["none"], "an effect of an author ends skipping")
-check_equal(skipping("/* PLUG-PROMISE: colour-only */"), ["of clear samples"], "unless it promises not to need it")
+check_equal(skipping("/* PLUG-PROMISE: colour-only */"), ["by distances between blocks"], "unless it promises not to need it")
+check_equal(skipping("/* PLUG-PROMISE: keeps-transparent */"), ["of clear samples"],
+            "of samples, where it may change their opacity")
 
 SHADED = """ComposedVolumeStyle { renderStyle [
     OpacityMapVolumeStyle { }
@@ -243,8 +249,10 @@ check_equal(program["gradients"], 1, "one gradient for a lit volume")
 check_equal([(e["effect"], e["place"]["line"], e["place"]["column"])
              for e in program["members"]["normal_eye"]["read_by"]], [("ShadedVolumeStyle", 6, 5)], "for whom")
 check("normal_eye (from the gradient) is read by ShadedVolumeStyle at scene.x3dv:6:5\n" in text, "in words", text)
-fetched = [f for f in program["fetched"] if f["sampler"] == "voxels"]
-check_equal(sum(f["count"] for f in fetched), 8, "six more fetches of the voxels")
+held = {choice["about"]: choice["chosen"] for choice in result["plan"]}
+check_equal((held["gradients"], held["lights"], held["styles"]), ("held", "1", "1 at samples"), "what it needs is told")
+fetched = [f for f in program["fetched"] if f["sampler"] == "voxelGradients"]
+check_equal(sum(f["count"] for f in fetched), 2, "a fetch of a gradient: before what is opaque, and there")
 check(all(f["for"]["effect"] == "VolumeData" and f["for"]["place"]["line"] == 3 for f in fetched), "for the volume",
       fetched)
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's, again")

@@ -177,7 +177,7 @@ static bool fetches_gradient(const program_report *r, size_t effect) {
     for (size_t i = 0; i < r->fetch_count; i++)
         if (r->fetches[i].effect == effect &&
             (r->fetches[i].count >= 6 ||
-             (r->fetches[i].sampler && strcmp(r->fetches[i].sampler, "gradients") == 0)))
+             (r->fetches[i].sampler && strcmp(r->fetches[i].sampler, "voxelGradients") == 0)))
             return true;
     return false;
 }
