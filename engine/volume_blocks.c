@@ -91,6 +91,34 @@ plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image) {
     return blocks;
 }
 
+static uint32_t label_at(const plr_image *image, size_t i) {
+    return image->type == PLR_UINT8    ? ((const uint8_t *)image->samples)[i]
+           : image->type == PLR_UINT16 ? ((const uint16_t *)image->samples)[i]
+                                       : ((const uint32_t *)image->samples)[i];
+}
+
+/* One row of voxels, into a row of blocks: voxel i reaches blocks i / 4 to (i + 1) / 4. */
+static void add_row(const plr_image *image, size_t first, uint64_t *labels, uint32_t *most) {
+    for (uint32_t x = 0; x < image->width; x++) {
+        uint32_t label = label_at(image, first + x);
+        uint64_t bit = UINT64_C(1) << (label < PLR_BLOCK_LABELS ? label : PLR_BLOCK_LABELS);
+        *most = label > *most ? label : *most;
+        labels[x / PLR_BLOCK_CELLS] |= bit;
+        labels[(x + 1) / PLR_BLOCK_CELLS] |= bit;
+    }
+}
+
+void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image *image) {
+    const size_t width = blocks->size[0], height = blocks->size[1];
+    blocks->labels = PLR_NEW_ARRAY(arena, plr_blocks_count(blocks), uint64_t);
+    for (uint32_t z = 0; z < image->depth; z++)
+        for (uint32_t y = 0; y < image->height; y++)
+            for (size_t c = z / PLR_BLOCK_CELLS; c <= (z + 1) / PLR_BLOCK_CELLS; c++)
+                for (size_t b = y / PLR_BLOCK_CELLS; b <= (y + 1) / PLR_BLOCK_CELLS; b++)
+                    add_row(image, image->width * ((size_t)y + (size_t)image->height * z),
+                            blocks->labels + width * (b + height * c), &blocks->most_label);
+}
+
 /* Takes one more than the least distance of those neighbours of block i that come before it in the
  * order of memory (`way` -1) or after it (1). */
 static void relax(const plr_blocks *blocks, const uint32_t at[3], size_t i, int way,

@@ -13,10 +13,17 @@
 typedef struct plr_blocks {
     uint32_t size[3];  /* blocks along each axis */
     float (*range)[2]; /* of the values in a block, sides included; x runs fastest */
+    uint64_t *labels;  /* which of PLR_BLOCK_LABELS are in a block, a bit each; or NULL */
+    uint32_t most_label;
 } plr_blocks;
+
+/* Labels are told apart up to this one, which stands for all greater ones, too. */
+#define PLR_BLOCK_LABELS 63
 
 /* Of an image of one component. */
 plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image);
+/* Labels of the same voxels. */
+void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image *image);
 /* How many blocks, in any direction, diagonals included, it is from each block to the next that is
  * `full` (one flag a block): 0 of these themselves; at most 255. */
 void plr_blocks_distances(const plr_blocks *blocks, const bool *full, uint8_t *distances);

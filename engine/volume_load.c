@@ -199,6 +199,13 @@ static uint64_t hash_image(const plr_image *image, uint64_t hash) {
     return hash;
 }
 
+static plr_blocks *make_blocks(plr_view *view, const plr_image *voxels, const plr_image *labels) {
+    plr_blocks *blocks = plr_blocks_make(&view->lasting, voxels);
+    if (labels->samples)
+        plr_blocks_add_labels(&view->lasting, blocks, labels);
+    return blocks;
+}
+
 static void measure_grid(plr_kept_volume *kept, const plr_image *image) {
     float dimensions[3] = {1, 1, 1};
     plr_node_numbers(kept->node, "dimensions", dimensions, 3);
@@ -247,7 +254,7 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
     if (r.voxels.components == 1 && !kept->grid.brick_sides[0])
-        kept->blocks = plr_blocks_make(&view->lasting, &r.voxels);
+        kept->blocks = make_blocks(view, &r.voxels, &r.labels);
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
     kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;
     kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);

@@ -43,6 +43,9 @@ bool plr_volume_has_styles(const plr_volume_state *state);
 void plr_volume_add_styles(plr_view *view, plr_recipe *recipe, size_t volume, size_t attached,
                            const plr_scope *lights, bool tabled, plr_diags *diags);
 
+/* Whether anything of a segment is drawn, with this style (NULL: the default one). */
+bool plr_volume_draws_segment(const plr_node *node, const plr_node *style, size_t segment);
+
 /* Where the transfer function of an opacity map is among those of all volumes; NULL: the default
  * ramp. NULL where it needs a texture of its own. */
 const plr_atlas_place *plr_style_place(plr_view *view, const plr_node *map, const plr_grid *grid);

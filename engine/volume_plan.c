@@ -10,6 +10,7 @@
 #include "engine/volume_blocks.h"
 #include "engine/volume_maps.h"
 #include "engine/volume_pass.h"
+#include "engine/volume_segments.h"
 #include "engine/volume_table.h"
 
 /* ---- Tables ---- */
@@ -56,10 +57,10 @@ static float find_slack(const plr_grid *grid) {
     return grid->voxels->image.type == PLR_FLOAT32 ? 1.2e-7F : 7.6e-6F;
 }
 
-/* The table of a transfer function, its opacity multiplied by a factor; NULL: of voxels as they
- * are. */
-static plr_table *make_table(plr_view *view, const plr_atlas_place *place,
-                             const plr_volume_state *state, double factor) {
+plr_table *plr_volume_make_table(plr_view *view, const plr_volume_state *state,
+                                 const plr_function *function, bool in_stack, bool gentle) {
+    const plr_atlas_place *place = function->place;
+    double factor = function->factor;
     static const float ramps[2][8] = {{0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 0, 1, 1, 1, 1, 0}};
     bool reversed = view->desc.dialect == PLR_DIALECT_2005 && place;
     const plr_image *image = place && place->function ? &place->function->image : NULL;
@@ -80,18 +81,29 @@ static plr_table *make_table(plr_view *view, const plr_atlas_place *place,
         texels[4 * i + 3] = (float)((double)texels[4 * i + 3] * factor);
     }
     plr_table_wish wish = {.slack = find_slack(state->grid),
-                           .error = state->general         ? 0
-                                    : view->desc.error > 0 ? view->desc.error
-                                                           : USUAL_ERROR};
+                           .in_stack = in_stack,
+                           .error = state->general || !gentle ? 0
+                                    : view->desc.error > 0    ? view->desc.error
+                                                              : USUAL_ERROR};
     plr_table *table = plr_table_make(&view->textures, &view->arena, texels, width, &wish);
     table->tame = table->tame && even;
     free(texels);
     return table;
 }
 
-/* Distances between blocks where something can be seen. */
-static plr_texture *make_leaps(plr_view *view, plr_volume_state *state) {
+static bool sees_block(const void *user, size_t block) {
+    const plr_volume_state *state = user;
+    const float *range = state->blocks->range[block];
+    return plr_table_sees(state->table, (double)range[0], (double)range[1]);
+}
+
+plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
+                                   bool (*sees)(const void *, size_t), const void *user) {
     const plr_blocks *blocks = state->blocks;
+    if (!sees) {
+        sees = sees_block;
+        user = state;
+    }
     size_t count = plr_blocks_count(blocks);
     plr_image image = {.width = blocks->size[0],
                        .height = blocks->size[1],
@@ -107,8 +119,7 @@ static plr_texture *make_leaps(plr_view *view, plr_volume_state *state) {
     }
     state->full_blocks = 0;
     for (size_t i = 0; i < count; i++) {
-        full[i] =
-            plr_table_sees(state->table, (double)blocks->range[i][0], (double)blocks->range[i][1]);
+        full[i] = sees(user, i);
         state->full_blocks += full[i];
     }
     plr_blocks_distances(blocks, full, image.samples);
@@ -119,6 +130,8 @@ static plr_texture *make_leaps(plr_view *view, plr_volume_state *state) {
 /* Makes the table of a volume that has one. */
 static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
+    if (plr_node_is(state->node, "SegmentedVolumeData"))
+        return plr_volume_find_segments(view, state);
     if (!state->blocks || state->labels || !plr_volume_keeps_clear(state) ||
         (state->authors_act && !state->authors_colour_only) ||
         (state->general && view->general_state.no_tables))
@@ -133,7 +146,8 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     const plr_atlas_place *place = NULL;
     if (!bare && !(place = plr_style_place(view, map, state->grid)))
         return false;
-    state->table = make_table(view, place, state, plain ? found.factor : 1);
+    const plr_function function = {place, plain ? found.factor : 1};
+    state->table = plr_volume_make_table(view, state, &function, false, true);
     state->styled = !plain || state->authors_act ||
                     plr_pass_fog(view, view->volumes.leaves[state->index]->scope)->node;
     state->integrals = state->table->texture;
@@ -142,7 +156,7 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     state->sums = state->table->sums;
     state->ranges = state->table->ranges;
     plr_table_seen(state->table, state->seen);
-    state->leaps = make_leaps(view, state);
+    state->leaps = plr_volume_make_leaps(view, state, NULL, NULL);
     return true;
 }
 
@@ -156,16 +170,22 @@ static bool are_styled(const plr_view *view, const plr_cast *cast) {
 }
 
 /* Volumes together need no more textures than there are, and translucent surfaces cut rays
- * elsewhere. Tables of segments know one range of opaque values, of one volume. */
+ * elsewhere. Tables between two values are of one function, with one range of opaque values, of one
+ * volume. */
 static bool can_be_cut(plr_view *view, const plr_cast *cast, plr_method method) {
     enum {
         MOST_TOGETHER = 3
     };
     int walls = 0;
-    for (size_t i = 0; i < cast->count; i++)
-        walls += view->volumes.volumes[cast->members[i]].table->walls;
+    bool whole = true;
+    for (size_t i = 0; i < cast->count; i++) {
+        const plr_table *table = view->volumes.volumes[cast->members[i]].table;
+        walls += table->walls;
+        whole = whole && table->texture;
+    }
     bool segments = method == PLR_METHOD_PREINTEGRATED || are_styled(view, cast);
-    return cast->count <= MOST_TOGETHER && !(segments && walls > (cast->count > 1 ? 0 : 1)) &&
+    return cast->count <= MOST_TOGETHER &&
+           !(segments && (!whole || walls > (cast->count > 1 ? 0 : 1))) &&
            !plr_cast_is_divided(view, cast);
 }
 

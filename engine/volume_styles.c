@@ -302,6 +302,10 @@ static bool is_segment_enabled(const plr_node *node, size_t segment) {
     return !enabled || segment >= enabled->count || enabled->value.bools[segment];
 }
 
+bool plr_volume_draws_segment(const plr_node *node, const plr_node *style, size_t segment) {
+    return any_enabled(style) && is_segment_enabled(node, segment);
+}
+
 /* How many numbers of segments or surfaces have something of their own; the last one stands for all
  * above. */
 static size_t choice_count(const style_list *list, const plr_field *styles) {
@@ -380,7 +384,7 @@ static bool add_segment_maps(style_list *list, const plr_field *styles) {
         if (!place)
             return false;
         memcpy(maps[i], place->rect, sizeof maps[i]);
-        if (!any_enabled(style) || !is_segment_enabled(list->volume->node, i))
+        if (!plr_volume_draws_segment(list->volume->node, style, i))
             maps[i][2] = -1;
     }
     plr_volume_state *state = &list->view->volumes.volumes[list->volume->index];

@@ -412,14 +412,19 @@ static bool is_whole(const float *texels, uint32_t count) {
     return whole;
 }
 
-/* An image of RGBA. */
-static plr_image make_image(plr_arena *arena, uint32_t width, uint32_t height) {
+plr_image plr_table_image(plr_arena *arena, uint32_t width, uint32_t height) {
     plr_image image = {
         .width = width, .height = height, .depth = 1, .components = 4, .type = PLR_FLOAT32};
     image.samples = calloc((size_t)width * height, 4 * sizeof(float));
     if (!image.samples)
         longjmp(*arena->out_of_memory, 1);
     return image;
+}
+
+plr_texture *plr_table_numbers(plr_textures *textures, plr_image *image) {
+    plr_texture *texture = plr_textures_make(textures, image, PLR_TEXTURE_2D, false);
+    texture->numbers = true;
+    return texture;
 }
 
 /* As many nodes between two texels that there are at least so many. */
@@ -472,25 +477,34 @@ static uint32_t choose_sums(const float *texels, uint32_t count, double error, b
     return count < MOST_SUMS ? count : MOST_SUMS;
 }
 
+static void make_textures(plr_table *t, plr_textures *textures, plr_arena *arena,
+                          const float *texels, uint32_t count) {
+    plr_image image = plr_table_image(arena, t->sum_nodes, 4);
+    memcpy(image.samples, t->sum_rows, (size_t)16 * t->sum_nodes * sizeof(float));
+    t->sums = plr_table_numbers(textures, &image);
+    image = plr_table_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);
+    memcpy(image.samples, t->range_rows, PLR_RANGE_FLOATS * sizeof(float));
+    t->ranges = plr_table_numbers(textures, &image);
+    image = plr_table_image(arena, t->nodes, t->nodes);
+    fill(t, texels, count, image.samples);
+    t->texture = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
+}
+
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
                           uint32_t count, const plr_table_wish *wish) {
     plr_table *t = PLR_NEW(arena, plr_table);
     find_wall(t, texels, count);
     set_nodes(t, arena, texels, count, choose_sums(texels, count, wish->error, &t->gentle));
-    plr_image image = make_image(arena, t->nodes, 4);
-    fill_sums(t, texels, count, wish->slack, image.samples);
-    t->sums = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
-    t->sums->numbers = true;
-    image = make_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES);
+    t->sum_nodes = t->nodes;
+    t->sum_rows = PLR_NEW_ARRAY(arena, (size_t)16 * t->nodes, float);
+    fill_sums(t, texels, count, wish->slack, t->sum_rows);
+    t->range_rows = PLR_NEW_ARRAY(arena, PLR_RANGE_FLOATS, float);
     double slope =
-        fill_ranges(t, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), image.samples);
+        fill_ranges(t, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), t->range_rows);
     t->tame = slope <= MOST_SLOPE && is_whole(texels, count);
-    t->ranges = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
-    t->ranges->numbers = true;
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
-    image = make_image(arena, t->nodes, t->nodes);
-    fill(t, texels, count, image.samples);
-    t->texture = plr_textures_make(textures, &image, PLR_TEXTURE_2D, false);
+    if (!wish->in_stack)
+        make_textures(t, textures, arena, texels, count);
     return t;
 }
 

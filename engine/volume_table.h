@@ -19,10 +19,14 @@ typedef struct plr_table {
     plr_texture *texture; /* x: the one value, y: the other; mean colour * extinction, extinction */
     plr_texture *sums;    /* integrals up to nodes, and more; see cells.glsl */
     plr_texture *ranges;  /* x: the least value, y: the greatest; see cells.glsl */
+    uint32_t sum_nodes;   /* of sums */
+    float *sum_rows;      /* of a table that goes into a stack: what these two would hold */
+    float *range_rows;
 } plr_table;
 
 /* Values are told apart that finely in `ranges`; the same in GLSL. */
 #define PLR_TABLE_RANGES 64
+#define PLR_RANGE_FLOATS (4 * PLR_TABLE_RANGES * PLR_TABLE_RANGES)
 /* From where to where something can be seen is told that finely, both in one number; the same in
  * GLSL. */
 #define PLR_TABLE_SEEN 4096
@@ -32,13 +36,24 @@ typedef struct plr_table {
 
 /* What is asked of a table. */
 typedef struct plr_table_wish {
-    float slack;  /* values that differ by no more from an opaque one are opaque */
-    double error; /* that may be; 0: it is to be used as if the function were not gentle */
+    float slack;   /* values that differ by no more from an opaque one are opaque */
+    double error;  /* that may be; 0: it is to be used as if the function were not gentle */
+    bool in_stack; /* it gets no textures: it is one of several in those of another
+                      (plr_table_stack) */
 } plr_table_wish;
 
 /* Of texels of RGBA, straight, interpolated linearly; at least two. */
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
                           uint32_t count, const plr_table_wish *wish);
+/* Several as one, which has `sums` and `ranges` alone: one above the other, and in a last row of
+ * sums what of them belongs to each of `count` numbers, as cells.glsl has it; PLR_TABLE_NONE: there
+ * nothing can be seen. All are gentle, or none. */
+#define PLR_TABLE_NONE UINT32_MAX
+plr_table *plr_table_stack(plr_textures *textures, plr_arena *arena, plr_table *const *tables,
+                           uint32_t table_count, const uint32_t *numbers, uint32_t count);
+/* An image of RGBA in 32-bit floats, all 0; and a texture of such, which takes it. */
+plr_image plr_table_image(plr_arena *arena, uint32_t width, uint32_t height);
+plr_texture *plr_table_numbers(plr_textures *textures, plr_image *image);
 /* The open interval outside of which nothing can be seen; its ends may be infinite. */
 void plr_table_seen(const plr_table *table, float seen[2]);
 /* Whether anything can be seen of values within a range. */

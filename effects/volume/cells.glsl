@@ -16,6 +16,11 @@ uniform sampler2D sums;   /* integrals of colour * extinction and of extinction 
                              first lost by rounding */
 uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour; from where to where
                              something can be seen */
+#if HAS_LABELS
+/* Of both there is one for each function of the segments, one above the other. The row above all sums has, for
+ * each segment number: the first row of its function, its last node, and outside of which open interval values are
+ * clear. The last texel is that of all numbers above. */
+#endif
 
 
 const float SEEN_STEPS = 4096.0; /* of two numbers in one: PLR_TABLE_SEEN */
@@ -28,15 +33,36 @@ float cell_values[9]; /* at the ends of the cells that are looked at together, C
 float first_values[8]; /* and at a third and at two thirds of each */
 float second_values[8];
 float cubic[4];       /* the value over one of them, from 0 to 1 */
+#if HAS_LABELS
+vec4 cell_functions[8]; /* in each of them, as they stand in `sums`; or NOT_SEEN */
+vec4 function_here;
+const vec4 NOT_SEEN = vec4(0.0, 1.0, 1.0e30, -1.0e30);
+#endif
+
 #if HAS_WALL
 vec2 cell_walls[8];   /* what is not between these is opaque */
 float wall_at[8];     /* where in a cell that is met; beyond 1: nowhere */
 #endif
 
+/* Whether cell k, which begins at t, may add anything. */
+bool is_looked_at(const in int k, const in float t) {
+#if HAS_LABELS
+    return is_inside(t) && cell_functions[k].z < cell_functions[k].w;
+#else
+    return is_inside(t);
+#endif
+}
+
 /* Along each axis the first face that lies behind t. */
 void find_faces(const in float t) {
+#if HAS_LABELS
+    /* the label is that of the nearest voxel: cells are cut in the middle, too */
+    face_step = mix(vec3(-0.5), vec3(0.5), greaterThanEqual(cell_direction, vec3(0.0)));
+    next_face = 0.5 * floor(2.0 * (cell_origin + t * cell_direction)) - face_step;
+#else
     face_step = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(cell_direction, vec3(0.0)));
     next_face = floor(cell_origin + t * cell_direction) - face_step;
+#endif
     for (int i = 0; i < 3; i++)
         next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(t)));
 }
@@ -52,6 +78,24 @@ void PLUG_volume_cells_leap(const in float t, inout float end) {
     float blocks = leap_at(next_face - 0.5 * face_step, corner);
     vec3 ends = (corner - cell_origin) * cell_inverse;
     end = min(end, blocks > 0.0 ? min(min(ends.x, ends.y), ends.z) : t);
+}
+#endif
+
+#if HAS_LABELS
+/* The function of the segment at a place, in cells. */
+vec4 function_at(const in vec3 place) {
+    vec3 size = vec3(textureSize(labels, 0));
+    vec3 voxel = clamp(floor(place - 0.5), vec3(0.0), size - 1.0);
+    vec2 texels = vec2(textureSize(sums, 0));
+    float number = min(float(texture(labels, (voxel + 0.5) / size).r), texels.x - 1.0);
+    return texture(sums, (vec2(number, texels.y - 1.0) + 0.5) / texels);
+}
+
+/* What holds between two values in the function at hand. */
+vec4 range_of(const in float low, const in float high) {
+    float first = function_here.x * (0.25 * RANGES);
+    vec2 bin = min(floor(clamp(vec2(low, high), 0.0, 1.0) * RANGES), RANGES - 1.0);
+    return texture(ranges, (bin + vec2(0.0, first) + 0.5) / vec2(textureSize(ranges, 0)));
 }
 #endif
 
@@ -72,6 +116,9 @@ void PLUG_volume_cell(const in float t, inout float end) {
 void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t, const in float end) {
     float span = end - t;
     float v0 = cell_values[k], v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
+#if HAS_LABELS
+    vec3 middle = next_face - 0.5 * face_step;
+#endif
     next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(end)));
     first_values[k] = v1;
     second_values[k] = v2;
@@ -80,9 +127,20 @@ void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t,
     float d1 = v1 - v0, d2 = v2 - v1, d3 = v3 - v2;
     float b1 = v0 + (11.0 * d1 - 7.0 * d2 + 2.0 * d3) / 6.0, b2 = v3 - (11.0 * d3 - 7.0 * d2 + 2.0 * d1) / 6.0;
     bool seen = max(max(v0, v3), max(b1, b2)) > seenValues.x && min(min(v0, v3), min(b1, b2)) < seenValues.y;
+#if HAS_LABELS
+    vec4 function = NOT_SEEN;
+    if (seen)
+        function = function_at(middle);
+    seen = max(max(v0, v3), max(b1, b2)) > function.z && min(min(v0, v3), min(b1, b2)) < function.w;
+    cell_functions[k] = seen ? function : NOT_SEEN;
+#endif
     /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
      * rounded to those behind. So that cells are clear here where a leap would pass over them. */
+#if HAS_LABELS
+    bool clear = v1 == 0.0 && v2 == 0.0 && function.z >= 0.0;
+#else
     bool clear = v1 == 0.0 && v2 == 0.0 && seenValues.x >= 0.0;
+#endif
     if (seen && !clear && span > 0.0 && is_inside(t))
         visible |= 1u << uint(k);
 }
@@ -96,6 +154,9 @@ void take_cubic(const in int k) {
     cubic[1] = 0.5 * (11.0 * d1 - 7.0 * d2 + 2.0 * d3);
     cubic[2] = 4.5 * (3.0 * d2 - 2.0 * d1 - d3);
     cubic[3] = 4.5 * (d1 - 2.0 * d2 + d3);
+#if HAS_LABELS
+    function_here = cell_functions[k];
+#endif
 }
 
 float value_in(const in float u) {
@@ -129,11 +190,19 @@ struct Place {
 /* Row by row what belongs to a node: by texture(), which costs less than texelFetch() where there are no
  * levels to choose from. */
 vec4 sums_at(const in int node, const in float row) {
+#if HAS_LABELS
+    return texture(sums, (vec2(float(node), function_here.x + row) + 0.5) / vec2(textureSize(sums, 0)));
+#else
     return texture(sums, vec2((float(node) + 0.5) / float(textureSize(sums, 0).x), (row + 0.5) * 0.25));
+#endif
 }
 
 Place place_of(const in float value) {
+#if HAS_LABELS
+    int last = int(function_here.y);
+#else
     int last = textureSize(sums, 0).x - 1;
+#endif
     float place = value * float(last);
     int node = clamp(int(floor(place)), 0, last - 1);
     return Place(node, place - float(node));
@@ -184,8 +253,12 @@ vec4 exact_mean(const in float from, const in float to) {
         vec4 between = (sums_at(high.node, 0.0) - sums_at(behind, 0.0)) +
                        (sums_at(high.node, 3.0) - sums_at(behind, 3.0));
         float rest = 1.0 - low.beyond;
-        mean = mean * rest + mean_within(high.node, 0.0, high.beyond) * high.beyond +
-               between * float(textureSize(sums, 0).x - 1);
+#if HAS_LABELS
+        float spans = function_here.y;
+#else
+        float spans = float(textureSize(sums, 0).x - 1);
+#endif
+        mean = mean * rest + mean_within(high.node, 0.0, high.beyond) * high.beyond + between * spans;
         mean /= float(high.node - behind) + rest + high.beyond;
     }
     return max(mean, 0.0);
@@ -232,7 +305,7 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
 #if HAS_WALL
     wall_at[k] = 2.0;
 #endif
-    if (!is_inside(t))
+    if (!is_looked_at(k, t))
         return;
     take_cubic(k);
     float v0 = cubic[0], v3 = cell_values[k + 1];
@@ -255,7 +328,11 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
     /* Towards an opaque value extinction is the logarithm of the distance to it, and its slope one over that. */
     slopes = low < walls.z || high > walls.w ? 1.0 / max(apart, 1.0e-9) : 0.0;
 #endif
+#if HAS_LABELS
+    vec4 range = range_of(low, high);
+#else
     vec4 range = texture(ranges, clamp(vec2(low, high), 0.0, 1.0));
+#endif
     vec2 part = vec2(0.0, 1.0);
 #if !MIXES
     float first_seen = floor(range.w / SEEN_STEPS);
@@ -276,7 +353,11 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
 #if HAS_WALL
     reach = vec2(max(reach.x, walls.x), min(reach.y, walls.y));
 #endif
+#if HAS_LABELS
+    range.xyz = range.y > 0.0 ? range_of(reach.x, reach.y).xyz : vec3(0.0);
+#else
     range.xyz = range.y > 0.0 ? texture(ranges, clamp(reach, 0.0, 1.0)).xyz : vec3(0.0);
+#endif
 #if MIXES
     /* colours of volumes in one place are as unlike as can be */
     if (need.depth > 0.0 && range.y > 0.0)
@@ -291,7 +372,7 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
 /* What lies along a part of cell k, which begins at t, from u to u_end of it. */
 void PLUG_volume_cell_part(inout VolumeMix mixed, const in int k, const in float t, const in float u,
                            const in float u_end, const in float span) {
-    if (!is_inside(t))
+    if (!is_looked_at(k, t))
         return;
     take_cubic(k);
     float from = value_in(u), to = value_in(u_end), part = u_end - u;
@@ -306,7 +387,7 @@ void PLUG_volume_cell_part(inout VolumeMix mixed, const in int k, const in float
 #if HAS_WALL
 /* Cell k ends at u, in opaque values of one volume or several. */
 void PLUG_volume_cell_wall(inout vec4 wall, const in int k, const in float t, const in float u) {
-    if (!is_inside(t) || wall_at[k] > u)
+    if (!is_looked_at(k, t) || wall_at[k] > u)
         return;
     take_cubic(k);
     Place place = place_of(clamp(value_in(u), 0.0, 1.0));

@@ -322,6 +322,9 @@ static const plr_define holding[] = {{"voxels_COMPONENTS", "1"}, {"HAS_LABELS", 
 static const plr_define walled[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},
     {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"}};
+static const plr_define in_segmented[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"BRICKED", "0"},
+    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
@@ -705,7 +708,7 @@ static const recipe recipes[] = {
      {{.path = TABLED "volume/cells", DEFINES(tabled)}, {.path = "volume/Composite"}},
      DEFINES(in_cells),
      .present = "sums ranges leaps lowest_bit",
-     .absent = "integrals wallValues"},
+     .absent = "integrals wallValues labels function_at"},
     {"two volumes in cells",
      "volume/raycaster",
      {{.path = TABLED "volume/cells", DEFINES(walled)},
@@ -714,6 +717,13 @@ static const recipe recipes[] = {
      DEFINES(two_in_cells),
      .present = "sums wall_at",
      .absent = "wallValues"},
+    {"two volumes in cells, one of segments",
+     "volume/raycaster",
+     {{.path = TABLED "volume/cells", DEFINES(in_segmented)},
+      {.path = TABLED "volume/cells", DEFINES(tabled)},
+      {.path = "volume/Composite"}},
+     DEFINES(two_in_cells),
+     .present = "labels function_at range_of"},
     {"one lit volume",
      "volume/raycaster",
      {{.path = STEPPED, DEFINES(scalar)},

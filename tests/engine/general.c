@@ -66,6 +66,16 @@ static const char segments_text[] = HEAD
     " c.g *= 0.5; }\" } }\n"
     "renderStyle [ CartoonVolumeStyle { } DEF SH ShadedVolumeStyle { lighting TRUE } ] }\n";
 
+/* Opacity maps alone: each segment has its own rows in the tables. */
+static const char functions_text[] =
+    HEAD "DEF V SegmentedVolumeData { dimensions 1.6 1.6 1.6 " VOXELS LABELS
+         "segmentEnabled [ TRUE TRUE FALSE ] renderStyle [ DEF A " MAP
+         "DEF B OpacityMapVolumeStyle { transferFunction PixelTexture {\n"
+         "image 3 1 4 0x00ff0000 0xff2020c0 0x2020ff80 } }\n"
+         "ComposedVolumeStyle { renderStyle [ OpacityMapVolumeStyle { transferFunction USE P }\n"
+         "DEF F BoundaryEnhancementVolumeStyle { boundaryOpacity 0 retainedOpacity 0.5 } ] }\n"
+         "USE A ] }\n";
+
 static const char surfaces_text[] =
     HEAD "DirectionalLight { direction 0.5 0 -1 }\n"
          "DEF V IsoSurfaceVolumeData { dimensions 1.6 1.6 1.6 " VOXELS "surfaceValues [ 0.3 0.6 ]\n"
@@ -136,6 +146,16 @@ static const example examples[] = {
                {"the style of a segment off", "SH", "enabled", "FALSE"},
                {"more switches than before", "V", "segmentEnabled", "TRUE TRUE TRUE FALSE"},
                {"and on", "SH", "enabled", "TRUE"}}},
+    {.name = "functions of segments",
+     .text = functions_text,
+     .edits = {{"a segment is switched on", "V", "segmentEnabled", "TRUE TRUE TRUE"},
+               {"another one off", "V", "segmentEnabled", "FALSE TRUE TRUE"},
+               {"the factor of one", "F", "retainedOpacity", "0.9"},
+               {"the texels of one", "P", "image", "2 1 4 0x00ff0010 0xff0000ff"},
+               {"the style of a segment off", "B", "enabled", "FALSE"},
+               {"more switches than before", "V", "segmentEnabled", "TRUE TRUE TRUE FALSE"},
+               {"and on", "B", "enabled", "TRUE"}},
+     .method = PLR_METHOD_CELLS},
     {.name = "shadows and blending",
      .text = shadows_text,
      .edits = {{"blending on", "B", "enabled", "TRUE"},

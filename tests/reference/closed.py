@@ -562,6 +562,15 @@ def segments():
 
 
 @suite.case
+def one_opaque_value():
+    "all of one value, which alone is opaque: however short it is, from the entry on"
+    tip = reference.texels([(0.2, 0.4, 0.6, 1), (0.2, 0.4, 0.6, 0)])
+    for touches_pass in (False, True):
+        got = ray(column((0, 0), tip, 1e-6), touches_pass=touches_pass)
+        suite.close("a tip", got, (0.2, 0.4, 0.6, 1), 0)
+
+
+@suite.case
 def factors():
     "constant factors on opacity and colour are clamped"
     rows = [(0, 0.4, 0.4, 0.4, 0), (1, 0.4, 0.4, 0.4, 0.5)]

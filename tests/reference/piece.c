@@ -107,6 +107,13 @@ static bool ends_at(ref_sum *sum, double t, const ref_cut *cut) {
     return sum->is_ended;
 }
 
+/* Whether a whole piece is opaque, by its middle: also one of one value that is opaque alone. */
+static bool is_opaque(const ref_walk *walk, double middle) {
+    const ref_interval *i = walk->interval;
+    return i->is_opaque ||
+           (i->clearness <= 1e-15 && fabs(ref_walk_value(walk, middle) - i->anchor) <= OPAQUE);
+}
+
 /* Sets the intervals of all volumes for a piece. Returns whether something is seen, `opaque`: and
  * nothing behind. */
 static bool choose(ref_sum *sum, double t, bool *opaque) {
@@ -117,21 +124,21 @@ static bool choose(ref_sum *sum, double t, bool *opaque) {
         int k = ref_transfer_find(walk->transfer, ref_walk_value(walk, t));
         walk->interval = &walk->transfer->intervals[k];
         seen = seen || !walk->interval->is_clear;
-        *opaque = *opaque || (walk->interval->is_opaque && ref_walk_inside(walk, t));
+        *opaque = *opaque || (is_opaque(walk, t) && ref_walk_inside(walk, t));
     }
     return seen;
 }
 
-/* The mean colour of what is opaque right behind t. */
-static void end(ref_sum *sum, double t) {
+/* The mean colour of what is opaque in a piece that begins at t. */
+static void end(ref_sum *sum, double t, double middle) {
     double through = exp(-sum->depth);
     int count = 0;
     for (int w = 0; w < sum->count; w++)
-        count += sum->walks[w]->interval->is_opaque;
+        count += is_opaque(sum->walks[w], middle);
     for (int w = 0; w < sum->count; w++) {
         const ref_walk *walk = sum->walks[w];
         double color[3];
-        if (!walk->interval->is_opaque)
+        if (!is_opaque(walk, middle))
             continue;
         ref_walk_color(walk, t, ref_walk_value(walk, t), color);
         for (int k = 0; k < 3; k++)
@@ -182,7 +189,7 @@ void ref_sum_add(ref_sum *sum, double from, double to) {
             continue;
         if (choose(sum, 0.5 * (at + next), &opaque)) {
             if (opaque) {
-                end(sum, at);
+                end(sum, at, 0.5 * (at + next));
                 return;
             }
             integrate(sum, at, next);

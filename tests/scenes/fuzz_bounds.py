@@ -125,9 +125,16 @@ def is_physical(color, most):
             and all(-slack <= c <= color[3] * m + slack for c, m in zip(color, most)))
 
 
+def texels_of(one):
+    """All colours that a volume may have."""
+    if "segments" not in one:
+        return one["texels"]
+    return [t for texels in one["segments"]["functions"] for t in texels] + [[1] * 4]
+
+
 def judge(case, picture, bounded=True):
     verdict, allowed = Verdict(), fraction(case["error"])
-    most = [max(t[c] for v in case["volumes"] for t in v["texels"]) for c in range(3)]
+    most = [max(t[c] for v in case["volumes"] for t in texels_of(v)) for c in range(3)]
     true, bars = fuzz_cases.truth(case, PIXELS)
     for i, bar in enumerate(bars.data):
         got = picture.values[4 * i:4 * i + 4]
@@ -172,9 +179,30 @@ def with_fewer_voxels(case, index):
                 continue
             kept = list(size)
             kept[axis] = high - low
-            numbers = [v for i, v in enumerate(one["numbers"])
-                       if low <= (i % size[0], i // size[0] % size[1], i // size[0] // size[1])[axis] < high]
-            yield changed(case, index, size=kept, numbers=numbers)
+            def part(numbers, size=size, axis=axis, low=low, high=high):
+                return [v for i, v in enumerate(numbers)
+                        if low <= (i % size[0], i // size[0] % size[1], i // size[0] // size[1])[axis] < high]
+
+            fewer = changed(case, index, size=kept, numbers=part(one["numbers"]))
+            if "segments" in one:
+                fewer["volumes"][index]["segments"]["labels"] = part(one["segments"]["labels"])
+            yield fewer
+
+
+def with_simpler_segments(case, index):
+    one = case["volumes"][index]
+    parts = one["segments"]
+    for texels in parts["functions"]:
+        yield changed(case, index, segments=None, texels=texels)
+    yield changed(case, index, segments={**parts, "enabled": []})
+    for label in sorted(set(parts["labels"])):
+        yield changed(case, index, segments={**parts, "labels": [0 if v == label else v for v in parts["labels"]]})
+    for i, texels in enumerate(parts["functions"]):
+        other = [json.loads(json.dumps(f)) for f in parts["functions"]]
+        for k, texel in enumerate(texels):
+            if texel[3] > 0:
+                other[i] = texels[:k] + [texel[:3] + [0]] + texels[k + 1:]
+                yield changed(case, index, segments={**parts, "functions": list(other)})
 
 
 def with_simpler_numbers(case, index):
@@ -214,6 +242,8 @@ def smaller(case):
             yield changed(case, parallel=True)
         yield from with_fewer_voxels(case, i)
         yield from with_simpler_numbers(case, i)
+        if "segments" in one:
+            yield from with_simpler_segments(case, i)
 
 
 def fails_alone(suite, case):

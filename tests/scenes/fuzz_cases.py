@@ -15,6 +15,7 @@ import reference as raycaster
 
 ERRORS = ("1/64", "1/255", "1/1023")
 ULPS = {"u8": 2 / 65535, "u16": 2**-23, "f32": 2**-23, "f64": 0}  # two units in the last place: of 16 bits, of floats near 1
+SEGMENTED = 0.2  # of all volumes
 MOST = {"u8": 255, "u16": 65535, "f32": 1, "f64": 1}
 NRRD_TYPES = {"u8": ("uchar", "B"), "u16": ("ushort", "H"), "f32": ("float", "f")}
 
@@ -112,6 +113,16 @@ def function(r):
     return [single([*c, a]) for c, a in zip(colors, alpha)]
 
 
+def segments(r, size):
+    """Labels of voxels, each by chance or in regions; functions of all but the last, perhaps, and which of them are on."""
+    count = r.randrange(2, 5)
+    top, wave, scattered = count + (r.random() < 0.3), waves(r, 3), r.random() < 0.4
+    labels = [r.randrange(top) if scattered else min(int(top * wave(*((i + 0.5) / n for i, n in zip(at, size)))), top - 1)
+              for at in ((x, y, z) for z in range(size[2]) for y in range(size[1]) for x in range(size[0]))]
+    return {"labels": labels, "functions": [function(r) for _ in range(count)],
+            "enabled": [r.random() < 0.8 for _ in range(r.choice((0, count, top)))]}
+
+
 def placed(r, dimensions, where):
     """In view of an eye at 0 0 1 that looks along -z."""
     scale = [1, 1, 1]
@@ -140,6 +151,8 @@ def one_volume(r, where):
     made = {"size": size, "type": kind, "numbers": voxels(r, size, kind), "dimensions": dimensions,
             "place": placed(r, dimensions, where), "texels": function(r),
             "unit": r.choice((0, 0, round(10 ** r.uniform(-2.5, 0), 4)))}
+    if r.random() < SEGMENTED:
+        made["segments"] = segments(r, size)
     if r.random() < 0.15:
         made["factor"] = r.choice((0, 1, r.random(), r.random()))
     if r.random() < 0.2:
@@ -174,22 +187,42 @@ def data_file(one):
     return head.encode() + struct.pack(f"<{len(one['numbers'])}{code}", *one["numbers"])
 
 
+def style(texels, factor, name, files):
+    files[name] = function_file(texels)
+    text = f'OpacityMapVolumeStyle {{ transferFunction ImageTexture {{ url "{name}" }} }}'
+    if factor is None:
+        return text
+    return (f"ComposedVolumeStyle {{ renderStyle [ {text} BoundaryEnhancementVolumeStyle {{ boundaryOpacity 0 "
+            f"retainedOpacity {factor!r} }} ] }}")
+
+
+def segmented(one, data, fields, prefix, files):
+    parts = one["segments"]
+    files[f"{prefix}-labels.nrrd"] = data_file({**one, "type": "u8", "numbers": parts["labels"]})
+    styles = [style(texels, one.get("factor"), f"{prefix}-{i}.nrrd", files) for i, texels in enumerate(parts["functions"])]
+    enabled = " ".join(str(on).upper() for on in parts["enabled"])
+    return (f"SegmentedVolumeData {{ dimensions {words(one['dimensions'])}\n  voxels {data}\n"
+            f"  segmentIdentifiers ImageTexture3D {{ url \"{prefix}-labels.nrrd\" }}\n  segmentEnabled [ {enabled} ]\n"
+            f"  renderStyle [ {' '.join(styles)} ]\n  {fields} }}\n")
+
+
 def content(case, prefix):
     """Nodes, and the files that they name."""
     files, parts = {}, []
     for clip in case.get("clips", ()):
         parts.append(f"ClipPlane {{ plane {words(clip)} }}\n")
     for i, one in enumerate(case["volumes"]):
-        data, map_ = f"{prefix}-{i}.nrrd", f"{prefix}-{i}-function.nrrd"
-        files[data], files[map_] = data_file(one), function_file(one["texels"])
+        data = f"{prefix}-{i}.nrrd"
+        files[data] = data_file(one)
         fields = f"valueRange 0 {MOST[one['type']]}\n  opacityUnitDistance {one['unit']!r}"
         if "crop" in one:
             fields += f"\n  cropMin {words(one['crop'][0])} cropMax {words(one['crop'][1])}"
-        style = f'OpacityMapVolumeStyle {{ transferFunction ImageTexture {{ url "{map_}" }} }}'
-        if "factor" in one:
-            style = (f"ComposedVolumeStyle {{ renderStyle [ {style} BoundaryEnhancementVolumeStyle {{ boundaryOpacity 0 "
-                     f"retainedOpacity {one['factor']!r} }} ] }}")
-        node = volume(f'ImageTexture3D {{ url "{data}" }}', style, "", fields, one["dimensions"])
+        image = f'ImageTexture3D {{ url "{data}" }}'
+        if "segments" in one:
+            node = segmented(one, image, fields, f"{prefix}-{i}", files)
+        else:
+            map_ = style(one["texels"], one.get("factor"), f"{prefix}-{i}-function.nrrd", files)
+            node = volume(image, map_, "", fields, one["dimensions"])
         place = " ".join(f"{name} {words(value)}" for name, value in one["place"].items())
         parts.append(f"Transform {{ {place} children [\n{node}] }}\n")
     return f"Group {{ children [\n{''.join(parts)}] }}\n", files
@@ -205,6 +238,18 @@ def with_other_voxels(r, case):
     return {**case, "volumes": volumes}
 
 
+def functions(one):
+    """Of the whole, or of the segments."""
+    factor, parts = one.get("factor", 1), one.get("segments")
+    if not parts:
+        return {"transfer": raycaster.texels(one["texels"], factor)}
+    enabled, last = parts["enabled"], len(parts["functions"])
+    found = [raycaster.texels(texels, factor) for texels in parts["functions"]]
+    found += [None] * (len(enabled) - last)  # the default one
+    return {"labels": (one["size"], parts["labels"], "u8"),
+            "segments": [raycaster.HIDDEN if i < len(enabled) and not enabled[i] else f or {} for i, f in enumerate(found)]}
+
+
 def jobs(case, change=None):
     """`change`: of the voxels of each volume, in parts of what is allowed."""
     change = change or (0,) * len(case["volumes"])
@@ -212,7 +257,7 @@ def jobs(case, change=None):
         one["size"], one["numbers"], one["type"], dimensions=one["dimensions"],
         value_range=(0, MOST[one["type"]]), opacity_unit=one["unit"], matrix=raycaster.transform(**one["place"]),
         crop=one.get("crop"), clip_planes=case.get("clips", ()), voxel_change=part * ULPS[one["type"]],
-        transfer=raycaster.texels(one["texels"], one.get("factor", 1))) for one, part in zip(case["volumes"], change)]
+        **functions(one)) for one, part in zip(case["volumes"], change)]
 
 
 def camera(case):
