@@ -38,7 +38,7 @@ BESIDE, CLOSER = disc(2, 8), disc(6, 24)
 def read_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("plugray")
-    parser.add_argument("--cases", type=int, default=72, help="how many (default: 72)")
+    parser.add_argument("--cases", type=int, default=66, help="how many (default: 66)")
     parser.add_argument("--seed", type=int, default=1, help="of random numbers (default: 1)")
     parser.add_argument("--seconds", type=float, default=20, help="to make a failure smaller (default: 20)")
     parser.add_argument("--keep", default="fuzz-bounds-failures", help="folder of scenes that fail")
