@@ -80,6 +80,7 @@ typedef struct plr_volume_state {
     size_t map_count;
     uint64_t hash;                   /* of the voxels */
     const struct plr_blocks *blocks; /* of voxels of one component; or NULL */
+    const struct plr_bends *bends;   /* of these; or NULL */
     /* Of a volume that one transfer function alone makes visible, and how far it is from each block
      * to the next where it makes anything visible; or NULL. */
     struct plr_table *table;

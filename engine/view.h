@@ -68,6 +68,7 @@ typedef struct plr_kept_volume {
     double dimensions[3];
     uint64_t hash;                   /* of the voxels */
     const struct plr_blocks *blocks; /* of voxels of one component that are cast as a whole */
+    const struct plr_bends *bends;   /* of these, if they are not very many */
 } plr_kept_volume;
 
 /* All volumes: most in one cast; one whose author decides how it accumulates is a layer of its own.

@@ -7,11 +7,13 @@
 
 #include "engine/update.h"
 #include "engine/volume.h"
+#include "engine/volume_bends.h"
 #include "engine/volume_blocks.h"
 #include "engine/volume_geometry.h"
 
 enum {
-    DATA_DEPTH = 2 /* of nodes that voxels are made of */
+    DATA_DEPTH = 2,     /* of nodes that voxels are made of */
+    MOST_BENT = 1 << 22 /* voxels: of more it is seldom that all are even enough */
 };
 
 /* Of one volume in a texture: what exceeds it is brought down. */
@@ -253,8 +255,11 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     }
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
-    if (r.voxels.components == 1 && !kept->grid.brick_sides[0])
+    if (r.voxels.components == 1 && !kept->grid.brick_sides[0]) {
         kept->blocks = make_blocks(view, &r.voxels, &r.labels);
+        if (plr_image_level_samples(&r.voxels, 0) <= MOST_BENT)
+            kept->bends = plr_bends_make(&view->lasting, &r.voxels);
+    }
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
     kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;
     kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);
@@ -303,6 +308,7 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
     state->file_place = kept->place;
     state->hash = kept->hash;
     state->blocks = kept->blocks;
+    state->bends = kept->bends;
     plr_volume_move(state, leaf);
     measure(view, state, kept->full_size);
     return state->voxel > 0;

@@ -8,6 +8,7 @@
 #include "engine/dialect.h"
 #include "engine/image_internal.h"
 #include "engine/volume_blocks.h"
+#include "engine/volume_certain.h"
 #include "engine/volume_maps.h"
 #include "engine/volume_pass.h"
 #include "engine/volume_segments.h"
@@ -189,13 +190,13 @@ static bool can_be_cut(plr_view *view, const plr_cast *cast, plr_method method) 
            !plr_cast_is_divided(view, cast);
 }
 
-static bool has_tables(plr_view *view, const plr_cast *cast, plr_method method) {
+static bool has_tables(plr_view *view, const plr_cast *cast) {
     bool tabled = true;
     for (size_t i = 0; tabled && i < cast->count; i++) {
         plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
         tabled = state->table || find_table(view, state);
     }
-    return tabled && can_be_cut(view, cast, method);
+    return tabled;
 }
 
 /* The greatest error asked for that is kept: below, numbers of 32 bits are too coarse. */
@@ -206,6 +207,82 @@ static bool are_tame(const plr_view *view, const plr_cast *cast) {
     for (size_t i = 0; i < cast->count; i++)
         tame = tame && view->volumes.volumes[cast->members[i]].table->tame;
     return tame;
+}
+
+/* ---- Steps that are certain to be enough ---- */
+
+enum {
+    MOST_CERTAIN = 8, /* volumes */
+    HALVINGS = 9      /* of the range of steps, as a ratio */
+};
+
+/* Of the error a part is for where rays end early, and for rounding. */
+#define CERTAIN_PART 0.8
+/* Cells cost less than such steps, in voxels. */
+#define LEAST_CERTAIN 0.125
+
+static bool describe(const plr_volume_state *state, plr_certain *v) {
+    if (!state->table || !state->table->tame || state->styled || state->general || !state->bends ||
+        plr_node_is(state->node, "SegmentedVolumeData"))
+        return false;
+    *v = (plr_certain){.bends = state->bends,
+                       .texels = state->table->texels,
+                       .texel_count = state->table->texel_count,
+                       .reference = state->reference};
+    double squared = 0;
+    for (int i = 0; i < 3; i++) {
+        v->voxel[i] = state->dimensions[i] / state->grid->size[i];
+        squared += state->dimensions[i] * state->dimensions[i];
+    }
+    v->longest = sqrt(squared);
+    return true;
+}
+
+/* The longest steps, in voxels, in whose middle samples are certain to keep an error; 0: none that
+ * are worth it. */
+static double find_certain(plr_view *view, const plr_cast *cast, double error) {
+    plr_certain volumes[MOST_CERTAIN];
+    double steps[MOST_CERTAIN], whole = 0;
+    if (cast->count > MOST_CERTAIN)
+        return 0;
+    for (size_t i = 0; i < cast->count; i++) {
+        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        if (!describe(state, &volumes[i]))
+            return 0;
+        whole = fmax(whole, 1.01 * volumes[i].longest / state->voxel);
+    }
+    double low = 0, high = whole, length = whole;
+    for (int i = 0; i < HALVINGS; i++) {
+        for (size_t k = 0; k < cast->count; k++)
+            steps[k] = length * view->volumes.volumes[cast->members[k]].voxel;
+        bool enough = plr_certain_error(volumes, cast->count, steps) <= CERTAIN_PART * error;
+        low = enough ? length : low;
+        high = enough ? high : length;
+        if (low >= whole || (!(low > 0) && length <= LEAST_CERTAIN))
+            break;
+        length = low > 0 ? sqrt(low * high) : LEAST_CERTAIN;
+    }
+    return low;
+}
+
+static bool is_certain(plr_view *view, plr_cast *cast) {
+    plr_plan *plan = &cast->plan;
+    double error = fmax(plan->asked, LEAST_ERROR);
+    double step = find_certain(view, cast, error);
+    if (!(step > 0))
+        return false;
+    plan->method = PLR_METHOD_MIDPOINT;
+    plan->bounded = true;
+    plan->value = error;
+    plan->step = step;
+    plan->why = "values and what the transfer function makes of them change so little from voxel "
+                "to voxel that samples "
+                "in the middle of such steps are certain to keep the error";
+    for (size_t i = 0; i < cast->count; i++) {
+        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        state->step = step * state->voxel;
+    }
+    return true;
 }
 
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
@@ -222,7 +299,10 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     plr_method wanted = desc->method != PLR_METHOD_AUTO ? desc->method
                         : fixed                         ? PLR_METHOD_MIDPOINT
                                                         : PLR_METHOD_CELLS;
-    if (wanted != PLR_METHOD_MIDPOINT && !has_tables(view, cast, wanted)) {
+    bool tabled = wanted != PLR_METHOD_MIDPOINT && has_tables(view, cast);
+    if (tabled && desc->method == PLR_METHOD_AUTO && early_end && is_certain(view, cast))
+        return;
+    if (wanted != PLR_METHOD_MIDPOINT && !(tabled && can_be_cut(view, cast, wanted))) {
         plan->why =
             "samples in the middle of steps: a volume is not made visible by one transfer function "
             "of one component first of all, or there are too many together, so no bound is known";

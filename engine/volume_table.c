@@ -493,6 +493,10 @@ static void make_textures(plr_table *t, plr_textures *textures, plr_arena *arena
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
                           uint32_t count, const plr_table_wish *wish) {
     plr_table *t = PLR_NEW(arena, plr_table);
+    float *kept = plr_arena_array(arena, count, 4 * sizeof *kept);
+    memcpy(kept, texels, (size_t)count * 4 * sizeof *kept);
+    t->texels = kept;
+    t->texel_count = count;
     find_wall(t, texels, count);
     set_nodes(t, arena, texels, count, choose_sums(texels, count, wish->error, &t->gentle));
     t->sum_nodes = t->nodes;

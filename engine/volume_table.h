@@ -7,6 +7,8 @@
 #include "engine/texture.h"
 
 typedef struct plr_table {
+    const float *texels; /* of the function: straight RGBA */
+    uint32_t texel_count;
     uint32_t nodes;     /* values, evenly from 0 to 1, on which the texels of the function lie */
     double *depth;      /* at each node: extinction integrated from 0 on, per reference length */
     double (*color)[3]; /* the same times colour */

@@ -177,7 +177,10 @@ static const example examples[] = {
                {"the map off", "B", "enabled", "FALSE"},
                {"texels", "P", "image", "2 1 4 0x00ff0010 0xff0000ff"},
                {"opaque twice", "P", "image",
-                "5 1 4 0x00ff0010 0xff0000ff 0x00ff0010 0x0000ffff 0x00ff0010"}},
+                "5 1 4 0x00ff0010 0xff0000ff 0x00ff0010 0x0000ffff 0x00ff0010"},
+               {"so even that long steps do", "P", "image", "2 1 4 0xff802010 0xff802010"},
+               {"even, and denser", "P", "image", "2 1 4 0xff802030 0xff802030"},
+               {"and not even", "P", "image", "2 1 4 0x00ff0010 0xff0000e0"}},
      .by_error = true},
     {.name = "cells", .text = tables_text, .edits = TABLE_EDITS, .method = PLR_METHOD_CELLS},
 };

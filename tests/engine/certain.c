@@ -1,0 +1,279 @@
+/* Steps that are said to be certain: whatever the ray, their middles are as near to the true colour
+ * as said; and no bound is so far above the errors that it is of no use. */
+#include "tests/tap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/volume_certain.h"
+
+enum {
+    MOST_SIDE = 9,
+    MOST_TEXELS = 33,
+    FINE = 3000, /* steps of the true colour */
+    RAYS = 16,
+    CASES = 80
+};
+
+typedef struct numbers {
+    uint64_t state;
+} numbers;
+
+static double next(numbers *n) {
+    n->state = n->state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (double)(n->state >> 11) / 9007199254740992.0;
+}
+
+typedef struct volume {
+    plr_arena arena;
+    uint32_t size[3];
+    double dimensions[3];
+    float values[MOST_SIDE * MOST_SIDE * MOST_SIDE];
+    float texels[4 * MOST_TEXELS];
+    plr_certain certain;
+} volume;
+
+/* ---- Truth, with nothing of the engine ---- */
+
+static double value_at(const volume *v, const double place[3]) {
+    int base[3], reach[3];
+    double f[3], sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double at =
+            fmin(fmax((place[i] / v->dimensions[i] + 0.5) * v->size[i] - 0.5, 0), v->size[i] - 1.0);
+        base[i] = (int)at;
+        f[i] = at - base[i];
+        reach[i] = base[i] + 1 < (int)v->size[i] ? 1 : 0;
+    }
+    for (int k = 0; k < 8; k++) {
+        double weight = 1;
+        size_t index = 0, stride = 1;
+        for (int i = 0; i < 3; i++) {
+            int side = k >> i & 1;
+            weight *= side ? f[i] : 1 - f[i];
+            index += (size_t)(base[i] + (side ? reach[i] : 0)) * stride;
+            stride *= v->size[i];
+        }
+        sum += weight * (double)v->values[index];
+    }
+    return sum;
+}
+
+static void color_at(const volume *v, const double place[3], double color[4]) {
+    double at = value_at(v, place) * (v->certain.texel_count - 1);
+    uint32_t i = (uint32_t)fmin(at, v->certain.texel_count - 2.0);
+    for (uint32_t c = 0; c < 4; c++) {
+        double a = (double)v->texels[4 * i + c], b = (double)v->texels[4 * i + 4 + c];
+        color[c] = a + (at - i) * (b - a);
+    }
+    color[3] = color[3] < 1 ? -log1p(-color[3]) / v->certain.reference : INFINITY;
+}
+
+/* Composes `count` volumes along a ray, in steps. */
+static void cast(const volume *const *volumes, size_t count, const double from[3],
+                 const double to[3], double steps, double out[4]) {
+    double length = 0, through = 1;
+    for (int i = 0; i < 3; i++)
+        length += (to[i] - from[i]) * (to[i] - from[i]);
+    length = sqrt(length);
+    for (int c = 0; c < 4; c++)
+        out[c] = 0;
+    int whole = (int)ceil(steps - 1e-9);
+    for (int n = 0; n < whole && through > 0; n++) {
+        double begin = n / steps, end = fmin((n + 1) / steps, 1), place[3], mixed[4] = {0, 0, 0, 0};
+        bool opaque = false;
+        for (int i = 0; i < 3; i++)
+            place[i] = from[i] + (to[i] - from[i]) * (begin + end) / 2;
+        for (size_t k = 0; k < count; k++) {
+            double color[4];
+            color_at(volumes[k], place, color);
+            if (isinf(color[3])) {
+                opaque = true;
+                for (int c = 0; c < 3; c++)
+                    mixed[c] = color[c];
+                mixed[3] = 1;
+                break;
+            }
+            for (int c = 0; c < 3; c++)
+                mixed[c] += color[c] * color[3];
+            mixed[3] += color[3];
+        }
+        double part = opaque ? 1 : -expm1(-mixed[3] * (end - begin) * length);
+        for (int c = 0; c < 3 && mixed[3] > 0; c++)
+            out[c] += through * part * mixed[c] / mixed[3];
+        through *= 1 - part;
+    }
+    out[3] = 1 - through;
+}
+
+/* ---- Cases ---- */
+
+static float shape(numbers *n, int kind, double at) {
+    switch (kind) {
+    case 0:
+        return 0.4f;
+    case 1:
+        return (float)(0.2 + 0.5 * at);
+    case 2:
+        return (float)(0.5 + 0.4 * sin(3 * at));
+    default:
+        return (float)next(n);
+    }
+}
+
+static void make(volume *v, numbers *n) {
+    int kind = (int)(4 * next(n)), function = (int)(4 * next(n)), tint = (int)(4 * next(n));
+    double scale = pow(10, -2.5 * next(n)), turn[3] = {next(n), next(n), next(n)}, low = next(n);
+    double thin = next(n) < 0.3 ? 0.01 : 1;
+    for (int i = 0; i < 3; i++) {
+        v->size[i] = 1 + (uint32_t)(MOST_SIDE * next(n));
+        v->dimensions[i] = 0.3 + 0.6 * next(n);
+    }
+    size_t at = 0;
+    for (uint32_t z = 0; z < v->size[2]; z++)
+        for (uint32_t y = 0; y < v->size[1]; y++)
+            for (uint32_t x = 0; x < v->size[0]; x++) {
+                double place =
+                    turn[0] * x / v->size[0] + turn[1] * y / v->size[1] + turn[2] * z / v->size[2];
+                float value = shape(n, kind, place);
+                v->values[at++] = (float)(low * (1 - thin) + thin * (double)value);
+            }
+    uint32_t count = 2 + (uint32_t)((MOST_TEXELS - 1) * next(n));
+    bool opaque = next(n) < 0.1;
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t c = 0; c < 3; c++)
+            v->texels[4 * i + c] = shape(n, tint, (i + 0.3 * c) / count);
+        v->texels[4 * i + 3] =
+            opaque ? 1 : (float)(scale * (double)shape(n, function, (double)i / count));
+    }
+    v->certain =
+        (plr_certain){.texels = v->texels, .texel_count = count, .reference = 0.02 + 0.3 * next(n)};
+    double squared = 0;
+    for (int i = 0; i < 3; i++) {
+        v->certain.voxel[i] = v->dimensions[i] / v->size[i];
+        squared += v->dimensions[i] * v->dimensions[i];
+    }
+    v->certain.longest = sqrt(squared);
+    plr_image image = {.width = v->size[0],
+                       .height = v->size[1],
+                       .depth = v->size[2],
+                       .components = 1,
+                       .type = PLR_FLOAT32,
+                       .samples = v->values};
+    static jmp_buf failed;
+    if (setjmp(failed))
+        abort();
+    plr_arena_init(&v->arena, NULL, &failed);
+    v->certain.bends = plr_bends_make(&v->arena, &image);
+}
+
+/* A ray from side to side of the box that is in all. */
+static void aim(const volume *const *volumes, size_t count, numbers *n, double from[3],
+                double to[3]) {
+    int axis = (int)(3 * next(n));
+    bool along = next(n) < 0.3;
+    for (int i = 0; i < 3; i++) {
+        double half = volumes[0]->dimensions[i] / 2;
+        for (size_t k = 1; k < count; k++)
+            half = fmin(half, volumes[k]->dimensions[i] / 2);
+        from[i] = i == axis ? -half : half * (2 * next(n) - 1);
+        to[i] = i == axis ? half : along ? from[i] : half * (2 * next(n) - 1);
+    }
+}
+
+/* The greatest error of steps so long. */
+static double measure(const volume *const *volumes, size_t count, double step, numbers *n) {
+    double worst = 0;
+    for (int ray = 0; ray < RAYS; ray++) {
+        double from[3], to[3], truth[4], got[4], length = 0;
+        aim(volumes, count, n, from, to);
+        for (int i = 0; i < 3; i++)
+            length += (to[i] - from[i]) * (to[i] - from[i]);
+        cast(volumes, count, from, to, FINE, truth);
+        cast(volumes, count, from, to, fmax(sqrt(length) / step, 1), got);
+        for (int c = 0; c < 4; c++)
+            worst = fmax(worst, fabs(truth[c] - got[c]));
+    }
+    return worst;
+}
+
+static int compare(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The longest steps, in some ratio, of which something holds; 0: none. */
+typedef struct search {
+    const volume *volumes[2];
+    plr_certain certain[2];
+    size_t count;
+    double voxel, allowed;
+} search;
+
+#define LONGEST 32.0
+#define SHORTEST 0.03
+#define RATIO 0.8
+
+static double find_certain(const search *s) {
+    for (double length = LONGEST; length > SHORTEST; length *= RATIO) {
+        const double steps[2] = {length * s->voxel, length * s->voxel};
+        if (plr_certain_error(s->certain, s->count, steps) <= s->allowed)
+            return length;
+    }
+    return 0;
+}
+
+static double find_enough(const search *s, uint64_t seed, double least) {
+    for (double length = LONGEST; length > least; length *= RATIO) {
+        numbers n = {seed};
+        if (measure(s->volumes, s->count, length * s->voxel, &n) <= s->allowed)
+            return length;
+    }
+    return least;
+}
+
+/* For each error the longest steps that are certain to keep it; they are `useful` if in the median
+ * no steps more than so many times as long would be enough. */
+static void check_cases(size_t together, double allowed, double useful) {
+    static volume all[2];
+    numbers n = {.state = 7 + together};
+    double ratios[CASES];
+    size_t exceeded = 0, some = 0;
+    for (int number = 0; number < CASES; number++) {
+        search s = {.count = together, .allowed = allowed, .voxel = INFINITY};
+        for (size_t k = 0; k < together; k++) {
+            make(&all[k], &n);
+            s.volumes[k] = &all[k];
+            s.certain[k] = all[k].certain;
+            for (int i = 0; i < 3; i++)
+                s.voxel = fmin(s.voxel, s.certain[k].voxel[i]);
+        }
+        double step = find_certain(&s);
+        if (step > 0) {
+            numbers rays = n;
+            double error = measure(s.volumes, together, step * s.voxel, &rays);
+            exceeded += error > allowed + 1e-6;
+            if (error > allowed + 1e-6)
+                printf("# case %d: steps of %g voxels: error %g, said %g\n", number, step, error,
+                       allowed);
+            ratios[some++] = find_enough(&s, n.state, step) / step;
+        }
+        for (size_t k = 0; k < together; k++)
+            plr_arena_finish(&all[k].arena);
+    }
+    qsort(ratios, some, sizeof *ratios, compare);
+    printf("# %zu of %d cases have such steps; %g times as long ones would do (median)\n", some,
+           CASES, some ? ratios[some / 2] : 0);
+    TAP_RESULT(exceeded == 0, "%zu together, 1/%g: %zu above what is said", together, 1 / allowed,
+               exceeded);
+    TAP_RESULT(some > CASES / 4 && ratios[some / 2] < useful, "and they are of use");
+}
+
+int main(void) {
+    static const double useful[] = {4, 12};
+    for (size_t together = 1; together <= 2; together++) {
+        check_cases(together, 1.0 / 64, useful[together - 1]);
+        check_cases(together, 1.0 / 1023, useful[together - 1]);
+    }
+    return tap_done();
+}
