@@ -270,7 +270,7 @@ static void check_cases(size_t together, double allowed, double useful) {
 }
 
 int main(void) {
-    static const double useful[] = {4, 12};
+    static const double useful[] = {4, 20};
     for (size_t together = 1; together <= 2; together++) {
         check_cases(together, 1.0 / 64, useful[together - 1]);
         check_cases(together, 1.0 / 1023, useful[together - 1]);
