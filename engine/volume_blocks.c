@@ -117,6 +117,8 @@ void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image
                 for (size_t b = y / PLR_BLOCK_CELLS; b <= (y + 1) / PLR_BLOCK_CELLS; b++)
                     add_row(image, image->width * ((size_t)y + (size_t)image->height * z),
                             blocks->labels + width * (b + height * c), &blocks->most_label);
+    for (size_t i = 0; i < plr_blocks_count(blocks); i++)
+        blocks->all_labels |= blocks->labels[i];
 }
 
 /* Takes one more than the least distance of those neighbours of block i that come before it in the

@@ -14,6 +14,7 @@ typedef struct plr_blocks {
     uint32_t size[3];  /* blocks along each axis */
     float (*range)[2]; /* of the values in a block, sides included; x runs fastest */
     uint64_t *labels;  /* which of PLR_BLOCK_LABELS are in a block, a bit each; or NULL */
+    uint64_t all_labels;
     uint32_t most_label;
 } plr_blocks;
 

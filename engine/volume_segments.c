@@ -8,8 +8,9 @@
 #include "engine/volume_pass.h"
 
 enum {
-    MOST_FUNCTIONS = 64, /* that differ: their rows are in one texture */
-    MOST_NUMBERS = 8192  /* a side that textures may have everywhere */
+    MOST_FUNCTIONS = 256, /* that differ: their rows are in one texture */
+    MOST_GENTLE = 16,     /* these have many nodes */
+    MOST_NUMBERS = 8192   /* a side that textures may have everywhere */
 };
 
 /* The functions of the segments. */
@@ -44,10 +45,12 @@ static uint64_t labels_of(const segments *s, uint32_t number) {
     return number + 1 < s->count ? UINT64_C(1) << first : UINT64_MAX << first;
 }
 
-/* Without labels all are of segment 0. */
+/* Whether a number is in the data, or may be; without labels all are of segment 0. */
 static bool is_there(const segments *s, uint32_t number) {
     const plr_blocks *blocks = s->state->blocks;
-    return blocks->labels ? number <= blocks->most_label : number == 0;
+    if (!blocks->labels)
+        return number == 0;
+    return number <= blocks->most_label && (labels_of(s, number) & blocks->all_labels) != 0;
 }
 
 /* In general worlds what is hidden counts, too: a switch may show it. */
@@ -90,7 +93,7 @@ static bool add_numbers(segments *s) {
 
 /* All with the same means within nodes. */
 static void make_tables(segments *s) {
-    bool gentle = true, again = true;
+    bool gentle = s->function_count <= MOST_GENTLE, again = true;
     while (again) {
         bool all = gentle, any = false;
         for (uint32_t i = 0; i < s->function_count; i++) {

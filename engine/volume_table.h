@@ -29,6 +29,8 @@ typedef struct plr_table {
 /* Values are told apart that finely in `ranges`; the same in GLSL. */
 #define PLR_TABLE_RANGES 64
 #define PLR_RANGE_FLOATS (4 * PLR_TABLE_RANGES * PLR_TABLE_RANGES)
+/* Of a stack, so many stand beside each other; the same in GLSL. */
+#define PLR_RANGES_ACROSS 8
 /* From where to where something can be seen is told that finely, both in one number; the same in
  * GLSL. */
 #define PLR_TABLE_SEEN 4096
@@ -47,7 +49,7 @@ typedef struct plr_table_wish {
 /* Of texels of RGBA, straight, interpolated linearly; at least two. */
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
                           uint32_t count, const plr_table_wish *wish);
-/* Several as one, which has `sums` and `ranges` alone: one above the other, and in a last row of
+/* Several as one, which has `sums` and `ranges` alone: beside and above each other, and in a last row of
  * sums what of them belongs to each of `count` numbers, as cells.glsl has it; PLR_TABLE_NONE: there
  * nothing can be seen. All are gentle, or none. */
 #define PLR_TABLE_NONE UINT32_MAX

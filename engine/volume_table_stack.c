@@ -15,6 +15,19 @@ static void fill_number(const plr_table *table, uint32_t row, float out[4]) {
     plr_table_seen(table, out + 2);
 }
 
+static plr_texture *stack_ranges(plr_textures *textures, plr_arena *arena, plr_table *const *tables,
+                                 uint32_t count) {
+    uint32_t across = PLR_RANGES_ACROSS, side = PLR_TABLE_RANGES;
+    plr_image image = plr_table_image(arena, across * side, (count + across - 1) / across * side);
+    size_t row = (size_t)4 * side;
+    for (uint32_t i = 0; i < count; i++) {
+        float *at = (float *)image.samples + (i / across * side * across + i % across) * row;
+        for (uint32_t y = 0; y < side; y++)
+            memcpy(at + y * across * row, tables[i]->range_rows + y * row, row * sizeof *at);
+    }
+    return plr_table_numbers(textures, &image);
+}
+
 plr_table *plr_table_stack(plr_textures *textures, plr_arena *arena, plr_table *const *tables,
                            uint32_t table_count, const uint32_t *numbers, uint32_t count) {
     plr_table *t = PLR_NEW(arena, plr_table);
@@ -37,10 +50,6 @@ plr_table *plr_table_stack(plr_textures *textures, plr_arena *arena, plr_table *
         fill_number(number == PLR_TABLE_NONE ? NULL : tables[number], 4 * number, at);
     }
     t->sums = plr_table_numbers(textures, &sums);
-    plr_image ranges = plr_table_image(arena, PLR_TABLE_RANGES, PLR_TABLE_RANGES * table_count);
-    for (uint32_t i = 0; i < table_count; i++)
-        memcpy((float *)ranges.samples + (size_t)PLR_RANGE_FLOATS * i, tables[i]->range_rows,
-               PLR_RANGE_FLOATS * sizeof(float));
-    t->ranges = plr_table_numbers(textures, &ranges);
+    t->ranges = stack_ranges(textures, arena, tables, table_count);
     return t;
 }

@@ -17,14 +17,15 @@ uniform sampler2D sums;   /* integrals of colour * extinction and of extinction 
 uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour; from where to where
                              something can be seen */
 #if HAS_LABELS
-/* Of both there is one for each function of the segments, one above the other. The row above all sums has, for
- * each segment number: the first row of its function, its last node, and outside of which open interval values are
- * clear. The last texel is that of all numbers above. */
+/* Of both there is one for each function of the segments, sums one above the other, ranges in rows of RANGES_ACROSS.
+ * The row above all sums has, for each segment number: the first row of its function, its last node, and outside of which
+ * open interval values are clear. The last texel is that of all numbers above. */
 #endif
 
 
 const float SEEN_STEPS = 4096.0; /* of two numbers in one: PLR_TABLE_SEEN */
 const float RANGES = 64.0; /* the same in C: PLR_TABLE_RANGES */
+const float RANGES_ACROSS = 8.0; /* the same in C: PLR_RANGES_ACROSS */
 const float VALUE_UNIT = 1.0 / 8388608.0; /* values are not followed finer */
 
 vec3 next_face;  /* along each axis, in cells */
@@ -93,9 +94,10 @@ vec4 function_at(const in vec3 place) {
 
 /* What holds between two values in the function at hand. */
 vec4 range_of(const in float low, const in float high) {
-    float first = function_here.x * (0.25 * RANGES);
+    float number = 0.25 * function_here.x, row = floor(number / RANGES_ACROSS);
+    vec2 first = RANGES * vec2(number - RANGES_ACROSS * row, row);
     vec2 bin = min(floor(clamp(vec2(low, high), 0.0, 1.0) * RANGES), RANGES - 1.0);
-    return texture(ranges, (bin + vec2(0.0, first) + 0.5) / vec2(textureSize(ranges, 0)));
+    return texture(ranges, (first + bin + 0.5) / vec2(textureSize(ranges, 0)));
 }
 #endif
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the analytic cases and writes what they found into docs/accuracy.md.
 
-analytic.py PLUGRAY --write [ramps|fields|surfaces|volumes|styles...]
+analytic.py PLUGRAY --write [ramps|fields|surfaces|volumes|segments|styles...]
 
 Without names all are run, and rows of cases that are no more go.
 """
@@ -9,7 +9,7 @@ Without names all are run, and rows of cases that are no more go.
 import importlib
 import sys
 
-FILES = ("ramps", "fields", "surfaces", "volumes", "styles")
+FILES = ("ramps", "fields", "surfaces", "volumes", "segments", "styles")
 names = sys.argv[3:] or FILES
 if sys.argv[2:3] != ["--write"] or not set(names) <= set(FILES):
     sys.exit(__doc__)

@@ -354,6 +354,13 @@ def main():
                 {"size": [1, 1, 2], "type": "u8", "numbers": [0, 255], "dimensions": [1, 1, 1], "place": {}, "unit": 0,
                  "texels": texels} for texels in functions]}
             suite.equal(name, draw(suite, [case])[1], expected)
+        segmented = {"labels": [0, 2], "functions": [[clear, half], [half, opaque], [opaque, clear]], "enabled": [True, False]}
+        case["volumes"][0]["segments"] = segmented
+        suite.equal("segments", draw(suite, [case])[1], True)
+        segmented["functions"][2] = [[1, 1, 1, -1], half]
+        suite.equal("not where one of them is not", draw(suite, [case])[1], False)
+        segmented["labels"] = [0, 0]
+        suite.equal("segments that are there", draw(suite, [case])[1], True)
 
     @suite.case
     def reach():

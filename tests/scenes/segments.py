@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """SegmentedVolumeData: every segment in its own style, T10."""
 
+import re
+
 from harness import Suite, opacity, over, premultiplied
 from scenes import constant, effect, front_scene, scene, voxels, FRONT, NO_HEADLIGHT
 
@@ -114,7 +116,7 @@ def very_many():
     got = suite.probe(front_scene(text), PIXELS, "--step", ".4")
     for pixel, want in zip(got, ((0, 0, 0, A), (0, 0, 0, 0), (199 / 255 * A, 0, 0, A), DEFAULT)):
         suite.close("", pixel, want)
-    result = suite.command("render", "scene.x3dv", "--stats", "json", "--size", "8x8",
+    result = suite.command("render", "scene.x3dv", "--stats", "json", "--size", "8x8", "--step", ".4",
                            files={"scene.x3dv": front_scene(text)})
     suite.check("fetches", '"fetches": 3' in result.output, result.output[-200:])
 
@@ -156,6 +158,59 @@ def any_style():
     got = columns([both, blended, GREEN])
     for i, want in enumerate((colored("blue"), colored("red"), colored("green"), DEFAULT)):
         suite.close(f"column {i}", got[i], want)
+
+
+def told(text):
+    """How samples are taken, what is said of the error, and of blocks."""
+    info = suite.command("info", "scene.x3dv", files={"scene.x3dv": text}).output
+    full = re.search(r"can be seen in (\d+) % of", info)
+    return (*(re.search(rf"^ *{word}: (\w+)", info, re.M).group(1) for word in ("sampling", "error")), full and int(full.group(1)))
+
+
+@suite.case
+def planned():
+    "opacity maps and constant factors are drawn with a bound; what else is in a segment that is there is not"
+    factor = "BoundaryEnhancementVolumeStyle { boundaryOpacity 0 retainedOpacity 0.5 }"
+    halved = f"ComposedVolumeStyle {{ renderStyle [ {BLUE} {factor} ] }}"
+    cartoon, fog = "CartoonVolumeStyle { }", "Fog { visibilityRange 9 }"
+    code = "void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color.g = 0.0; }"
+    many = [one_color(0x10000 * i + 0x80) for i in range(256)]
+    plenty = {"labels": voxels(1, (16, 16, 1), range(256)), "data": constant(102, (16, 16, 1))}
+    for name, text, bounded in (
+            ("maps", segmented([RED, GREEN, halved]), True),
+            ("none", segmented([]), True),
+            ("a hidden one has another", segmented([RED, cartoon], fields="segmentEnabled [ TRUE FALSE ]"), True),
+            ("one that is nowhere has", segmented([RED, GREEN, BLUE, cartoon]), True),
+            ("one has", segmented([RED, cartoon]), False),
+            ("fog", segmented([RED]) + fog, False),
+            ("an author", segmented([RED], fields=f"effects [ {effect(code)} ]"), False),
+            ("colours", segmented([RED], data=voxels(3, (4, 1, 1), range(4))), False),
+            ("no labels", segmented([RED, GREEN], ""), True),
+            ("as many as there is room for", segmented(many, **plenty), True),
+            ("in two places", segmented([RED, GREEN]) + segmented([GREEN]), True)):
+        suite.equal(name, told(front_scene(text))[:2], ("cells", "bounded") if bounded else ("midpoint", "estimated"))
+    text = front_scene(segmented([RED]))
+    drawn = suite.render(text, "--probe", "5,8", "--step", ".4", "--method", "preintegrated", "--stats", "json").output
+    suite.check("labels between two samples", '"method": "midpoint"' in drawn, drawn)
+
+
+@suite.case
+def leaps():
+    "blocks of hidden segments are leapt over, others never: to the bit"
+    size, count = (23, 17, 19), 23 * 17 * 19
+    data = voxels(1, size, ((i * i * 7 + i // 5) % 256 for i in range(count)))
+    regions = [min(i % 23 // 6, 2) + 64 * (i // 23 % 17 > 11) for i in range(count)]
+    maps = [one_color((0x20 + 2 * i) << 24 | (0x9F - i) << 16 | 0x40) for i in range(67)]
+    view = ("OrthoViewpoint { position 3 2 9 orientation -.6 .8 0 .4 fieldOfView -1 -1 1 1 }\n", NO_HEADLIGHT)
+    for hidden in ((1, 64), (0, 1, 2), (0, 1, 2, *range(63, 67))):
+        enabled = " ".join("FALSE" if i in hidden else "TRUE" for i in range(67))
+        text = scene(*view, segmented(maps, voxels(1, size, regions), f"segmentEnabled [ {enabled} ]", data))
+        pictures = [suite.picture(text, *o, "--size", "32x32").values for o in ((), ("--no-leaping",))]
+        suite.check(f"{hidden}: alike", pictures[0] == pictures[1])
+        suite.equal(f"{hidden}: something is seen", any(pictures[0]), len(hidden) < 7)
+        method, _, full = told(text)
+        suite.equal(f"{hidden}: method", method, "cells")
+        suite.check(f"{hidden}: blocks", full == 0 if len(hidden) == 7 else 20 < full < 100, full)
 
 
 @suite.case
