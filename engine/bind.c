@@ -85,6 +85,7 @@ static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
     } textures[] = {{"labels", offsetof(plr_volume_state, labels)},
                     {"integrals", offsetof(plr_volume_state, integrals)},
                     {"voxelGradients", offsetof(plr_volume_state, gradients)},
+                    {"voxelQuads", offsetof(plr_volume_state, quads)},
                     {"places", offsetof(plr_volume_state, places)},
                     {"sums", offsetof(plr_volume_state, sums)},
                     {"ranges", offsetof(plr_volume_state, ranges)},

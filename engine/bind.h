@@ -35,6 +35,7 @@ typedef struct plr_grid {
     plr_texture *voxels;
     uint32_t size[3];
     double range[2];      /* the physical values that are 0 and 1 */
+    bool bytes;           /* the voxels are bytes, whatever they are held as */
     double dimensions[3]; /* of the box, own coordinates */
     double gradient_unit; /* 0: not asked for yet */
     /* Voxels that no texture holds are cast in bricks of so many; 0: they are not. What follows is
@@ -87,6 +88,7 @@ typedef struct plr_volume_state {
     bool styled;            /* and styles or fog change what it makes visible */
     plr_texture *integrals; /* of the table */
     plr_texture *gradients; /* at the centres of voxels; or NULL */
+    plr_texture *quads;     /* values of four voxels a texel; or NULL */
     plr_texture *places;    /* where styles look; or NULL */
     plr_texture *sums;      /* the same from 0 on */
     plr_texture *ranges;    /* bounds of it */

@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* 8-bit samples go up as 16-bit ones (v * 257, the same value): some drivers filter 8-bit textures
- * in 8-bit arithmetic, which is seen in volumes and transfer functions. */
+ * in 8-bit arithmetic, which is seen in volumes and transfer functions. Not so those that nothing
+ * filters. */
 static uint16_t *widen(const uint8_t *samples, size_t count) {
     uint16_t *wide = malloc(count * sizeof *wide);
     for (size_t i = 0; wide && i < count; i++)
@@ -21,6 +22,7 @@ static const struct {
     GLenum inner[4]; /* by components */
     GLenum type;
 } uploads[] = {
+    [PLR_UNORM8] = {{GL_R8, GL_RG8, GL_RGB8, GL_RGBA8}, GL_UNSIGNED_BYTE},
     [PLR_UNORM16] = {{GL_R16, GL_RG16, GL_RGB16, GL_RGBA16}, GL_UNSIGNED_SHORT},
     [PLR_FLOAT32] = {{GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F}, GL_FLOAT},
     [PLR_UINT8] = {{GL_R8UI}, GL_UNSIGNED_BYTE},
@@ -60,14 +62,15 @@ static bool is_labels(const plr_texture *texture) {
 
 static bool define_image(const plr_gl *gl, plr_texture *texture) {
     const plr_image *image = &texture->image;
-    plr_sample_type sent = image->type == PLR_UNORM8 ? PLR_UNORM16 : image->type;
+    bool widens = image->type == PLR_UNORM8 && !texture->numbers;
+    plr_sample_type sent = widens ? PLR_UNORM16 : image->type;
     GLint inner = (GLint)uploads[sent].inner[image->components - 1];
     GLenum format = is_labels(texture) ? GL_RED_INTEGER : formats[image->components - 1];
     const char *samples = image->samples;
     for (uint32_t level = 0; level <= image->mipmaps; level++) {
         size_t count = plr_image_level_samples(image, level);
         uint16_t *wide = NULL;
-        if (image->type == PLR_UNORM8 && !(wide = widen((const uint8_t *)samples, count)))
+        if (widens && !(wide = widen((const uint8_t *)samples, count)))
             return false;
         size_t bytes = count * plr_image_sample_size(sent);
         define_level(gl, texture, (GLint)level, inner, format, uploads[sent].type,

@@ -63,6 +63,7 @@ typedef struct plr_kept_volume {
     uint32_t full_size[3];  /* of the data, before they were brought down to fit */
     plr_texture *labels;    /* or NULL */
     plr_texture *gradients; /* of the voxels; NULL: not asked for yet */
+    plr_texture *quads;     /* the voxels again, four a texel; NULL: not asked for yet */
     bool placed;            /* the file says where it is and how large: */
     plr_matrix place;
     double dimensions[3];

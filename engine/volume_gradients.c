@@ -1,7 +1,9 @@
-/* Gradients at the centres of voxels as a texture: one look where six samples would be needed.
- * Floats of 16 bits have 11 digits: a gradient of them is off by 1 in 2000 of its length at most.
+/* Textures made of voxels. Gradients at the centres of voxels: one look where six samples would be
+ * needed. Floats of 16 bits have 11 digits: a gradient of them is off by 1 in 2000 of its length at
+ * most.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +14,7 @@ enum {
     MOST_VOXELS = 1 << 24 /* 256 MiB of gradients */
 };
 
-bool plr_volume_can_hold_gradients(const plr_volume_state *state) {
+bool plr_volume_can_derive(const plr_volume_state *state) {
     const uint32_t *size = state->grid->size;
     return state->grid->voxels->components == 1 && !state->grid->brick_sides[0] &&
            (uint64_t)size[0] * size[1] * size[2] <= MOST_VOXELS;
@@ -55,30 +57,49 @@ static bool fill(const plr_image *voxels, plr_image *out) {
     return true;
 }
 
-static void make_gradients(plr_view *view, plr_volume_state *state) {
+/* Textures that are made of voxels where a program reads them. */
+static const struct {
+    const char *name;
+    bool (*fill)(const plr_image *voxels, plr_image *out);
+    size_t kept, state; /* where the texture is in plr_kept_volume and plr_volume_state */
+    bool numbers;
+} derived[] = {{"voxelGradients", fill, offsetof(plr_kept_volume, gradients),
+                offsetof(plr_volume_state, gradients), false},
+               {"voxelQuads", plr_volume_fill_quads, offsetof(plr_kept_volume, quads),
+                offsetof(plr_volume_state, quads), true}};
+
+static plr_texture **texture_in(void *record, size_t offset) {
+    return (plr_texture **)(void *)((char *)record + offset);
+}
+
+static void derive(plr_view *view, plr_volume_state *state, size_t which) {
     plr_kept_volume *kept = plr_volume_kept(view, state->node);
-    if (kept && !kept->gradients) {
+    plr_texture **texture = kept ? texture_in(kept, derived[which].kept) : NULL;
+    if (texture && !*texture) {
         plr_image again, image;
         const plr_image *voxels = plr_volume_voxels(view, state->grid, &again);
-        bool made = voxels && fill(voxels, &image);
+        bool made = voxels && derived[which].fill(voxels, &image);
         plr_image_free(&again);
         if (!made)
             longjmp(*view->arena.out_of_memory, 1);
-        kept->gradients = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
-        kept->gradients->kept = true;
+        *texture = plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D, true);
+        (*texture)->numbers = derived[which].numbers;
+        (*texture)->kept = true;
     }
-    state->gradients = kept ? kept->gradients : NULL;
+    *texture_in(state, derived[which].state) = texture ? *texture : NULL;
 }
 
-void plr_cast_make_gradients(plr_view *view, plr_cast *cast) {
+void plr_cast_derive(plr_view *view, plr_cast *cast) {
     const plr_program *program =
         view->engine ? cast->pass.program : NULL; /* else nothing is drawn */
     for (size_t i = 0; program && i < plr_program_symbol_count(program); i++) {
         const plr_symbol *symbol = plr_program_symbol(program, i);
-        if (symbol->effect == PLR_NO_EFFECT || strcmp(symbol->name, "voxelGradients") != 0 ||
+        if (symbol->effect == PLR_NO_EFFECT ||
             !cast->pass.recipe.effects.items[symbol->effect].builtin)
             continue;
         size_t volume = cast->pass.recipe.bindings.items[symbol->effect].volume;
-        make_gradients(view, &view->volumes.volumes[volume]);
+        for (size_t which = 0; which < sizeof derived / sizeof *derived; which++)
+            if (strcmp(symbol->name, derived[which].name) == 0)
+                derive(view, &view->volumes.volumes[volume], which);
     }
 }

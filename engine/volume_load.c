@@ -44,6 +44,8 @@ static plr_kept_volume *find_kept(plr_view *view, const plr_node *owner, uint64_
             kept->labels->kept = false;
         if (kept->gradients)
             kept->gradients->kept = false;
+        if (kept->quads)
+            kept->quads->kept = false;
         view->kept_volumes.items[i] = view->kept_volumes.items[--view->kept_volumes.count];
         return NULL;
     }
@@ -256,6 +258,7 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     measure_grid(kept, &r.voxels);
     kept->hash = hash_image(&r.labels, hash_image(&r.voxels, UINT64_C(0xcbf29ce484222325)));
     if (r.voxels.components == 1 && !kept->grid.brick_sides[0]) {
+        kept->grid.bytes = plr_volume_has_bytes(&r.voxels);
         kept->blocks = make_blocks(view, &r.voxels, &r.labels);
         if (plr_image_level_samples(&r.voxels, 0) <= MOST_BENT)
             kept->bends = plr_bends_make(&view->lasting, &r.voxels);

@@ -221,7 +221,7 @@ void plr_volume_pass_prepare(plr_view *view, plr_diags *diags) {
         plr_cast_build_recipe(view, cast, !use.accumulates, diags);
         cast->pass.built =
             plr_compose_program(&view->composer, &cast->pass.recipe, "volume", &cast->pass.program);
-        plr_cast_make_gradients(view, cast);
+        plr_cast_derive(view, cast);
         plr_cast_explain(view, cast, !use.accumulates);
         plr_pilot_prepare(view, cast);
     }

@@ -19,12 +19,17 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
  * free; NULL: they cannot be had any more. */
 const plr_image *plr_volume_voxels(plr_view *view, const plr_grid *grid, plr_image *again);
 
-/* ---- Gradients (volume_gradients.c) ---- */
+/* ---- Made of voxels (volume_gradients.c, volume_quads.c) ---- */
 
-/* Whether gradients of a volume may be held in a texture of their own. */
-bool plr_volume_can_hold_gradients(const plr_volume_state *state);
-/* Makes that texture, once for the voxels, of the volumes of a cast whose program reads it. */
-void plr_cast_make_gradients(plr_view *view, plr_cast *cast);
+/* Whether textures may be made of a volume's voxels: gradients, and voxels four a texel. */
+bool plr_volume_can_derive(const plr_volume_state *state);
+/* Makes those that the program of a cast reads, once for the voxels. */
+void plr_cast_derive(plr_view *view, plr_cast *cast);
+/* Whether voxels are bytes, whatever they are held as. */
+bool plr_volume_has_bytes(const plr_image *voxels);
+/* Bytes of one component, four a texel: (i, j, k), (i + 1, j, k), (i, j + 1, k), (i + 1, j + 1, k)
+ * for the texel (i, j, k). False: no memory. */
+bool plr_volume_fill_quads(const plr_image *voxels, plr_image *out);
 
 /* ---- Surfaces of equal value (volume_surfaces.c) ---- */
 

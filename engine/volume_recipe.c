@@ -30,7 +30,11 @@ static const char *const segment_units[] = {
     "volume/Volume volume/grid volume/table volume/cells"};
 
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
-                                bool segments, bool cells) {
+                                const plr_cast *cast) {
+    bool segments = is_segmented(cast), cells = cast->plan.method == PLR_METHOD_CELLS;
+    /* of volumes together each has few textures */
+    bool quads = segments && !cells && cast->count == 1 && state->grid->bytes &&
+                 plr_volume_can_derive(state);
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
@@ -38,7 +42,8 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"KEEPS_CLEAR", plr_volume_keeps_clear(state) ? "1" : "0"},
         {"BRICKED", state->grid->brick_sides[0] ? "1" : "0"},
         {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
-        {"HAS_GRADIENTS", segments && plr_volume_can_hold_gradients(state) ? "1" : "0"},
+        {"HAS_GRADIENTS", segments && plr_volume_can_derive(state) ? "1" : "0"},
+        {"HAS_QUADS", quads ? "1" : "0"},
         {"GENTLE", segments && state->table->gentle ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
@@ -106,8 +111,7 @@ static void add_volume(plr_view *view, plr_recipe *recipe, size_t index, const p
     bool segments = is_segmented(cast);
     const plr_volume_state *state = &view->volumes.volumes[index];
     const plr_leaf *leaf = view->volumes.leaves[index];
-    *attached =
-        add_volume_effect(view, recipe, state, segments, cast->plan.method == PLR_METHOD_CELLS);
+    *attached = add_volume_effect(view, recipe, state, cast);
     plr_volume_add_planes(view, recipe, index, *attached);
     plr_general_hide(view, recipe, state->hidden, index, *attached);
     if (segments && !state->styled)

@@ -28,14 +28,35 @@ vec2 table_place; /* from values to texture coordinates of the table: scale and 
 #endif
 float depth_ratio; /* from lengths of the ray to reference lengths */
 
+#if HAS_QUADS
+uniform sampler3D voxelQuads; /* a texel has the values at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1) of its layer */
+
+vec3 texel_size;
+
+/* As a linear filter would, but from two looks, and with weights of as many bits as floats have. */
+float value_at(const in float t) {
+    vec3 last = vec3(textureSize(voxelQuads, 0)) - 1.0;
+    vec3 place = clamp(cell_origin - 1.0 + t * cell_direction, vec3(0.0), last);
+    vec3 first = floor(place);
+    vec3 way = place - first;
+    vec3 texel = (first + 0.5) * texel_size;
+    vec4 quad = mix(texture(voxelQuads, texel), texture(voxelQuads, vec3(texel.xy, texel.z + texel_size.z)), way.z);
+    vec2 pair = mix(quad.xz, quad.yw, way.x);
+    return mix(pair.x, pair.y, way.y);
+}
+#else
 float value_at(const in float t) {
     return voxel_scalar(voxel_at(ray_origin + t * ray_direction));
 }
+#endif
 
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     vec3 count = voxel_count();
     cell_origin = ray_origin * count + 0.5;
     cell_direction = ray_direction * count;
+#if HAS_QUADS
+    texel_size = 1.0 / count;
+#endif
 #if !CELLS
     float nodes = float(textureSize(integrals, 0).x);
     table_place = vec2((nodes - 1.0) / nodes, 0.5 / nodes);

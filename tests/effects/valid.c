@@ -311,20 +311,20 @@ static const plr_define two_in_segments[] = CUT("0", "0", "1", "1");
 static const plr_define in_cells[] = CUT("1", "1", "0", "0");
 static const plr_define two_in_cells[] = CUT("1", "1", "1", "1");
 #define TABLED "volume/Volume volume/grid volume/table "
-static const plr_define tabled[] = {{"voxels_COMPONENTS", "1"},
-                                    {"HAS_LABELS", "0"},
-                                    {"BRICKED", "0"},
-                                    {"PROJECTS", "0"},
-                                    {"HAS_WALL", "0"}};
-static const plr_define holding[] = {{"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},
-                                     {"BRICKED", "0"},           {"PROJECTS", "0"},
-                                     {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}};
+static const plr_define tabled[] = {{"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},
+                                    {"BRICKED", "0"},           {"PROJECTS", "0"},
+                                    {"HAS_WALL", "0"},          {"HAS_QUADS", "0"}};
+static const plr_define holding[] = {
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},    {"BRICKED", "0"},  {"PROJECTS", "0"},
+    {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}, {"HAS_QUADS", "1"}};
 static const plr_define walled[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},
-    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"}};
+    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"},
+    {"HAS_QUADS", "0"}};
 static const plr_define in_segmented[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"BRICKED", "0"},
-    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"}};
+    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"},
+    {"HAS_QUADS", "0"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
@@ -685,7 +685,7 @@ static const recipe recipes[] = {
      {{.path = TABLED "volume/segments", DEFINES(tabled)}, {.path = "volume/Composite"}},
      DEFINES(in_segments),
      .present = "integrals leaps lowest_bit",
-     .absent = "wallValues places voxelGradients"},
+     .absent = "wallValues places voxelGradients voxelQuads"},
     {"one lit volume in segments",
      "volume/raycaster",
      {{.path = TABLED "volume/segments", DEFINES(holding)},
@@ -693,7 +693,7 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"},
       {.path = "lights/DirectionalLight"}},
      DEFINES(in_segments),
-     .present = "integrals places voxelGradients",
+     .present = "integrals places voxelGradients voxelQuads",
      .absent = "scalar_at"},
     {"two volumes in segments",
      "volume/raycaster",

@@ -2,8 +2,10 @@
 """Volumes in segments whose styles only change what a transfer function makes visible: the picture is that of
 fine steps, and sooner than by samples in the middle."""
 
+import operator
 import os
 import random
+import struct
 
 from harness import Picture, Suite, load_json
 from scenes import NO_HEADLIGHT, effect, scene, voxels
@@ -57,9 +59,9 @@ def volume(style, more="", data=VOXELS):
     return f"VolumeData {{ dimensions 1 1.2 0.9 voxels {data} {style} {more} }}\n"
 
 
-def draw(parts, *arguments):
+def draw(parts, *arguments, **options):
     result = suite.render(scene(NO_HEADLIGHT, CAMERA, LIGHTS, *parts), "-o", "a.npy", "--stats", "json", *arguments,
-                          size=f"{PIXELS}x{PIXELS}")
+                          size=f"{PIXELS}x{PIXELS}", **options)
     return Picture(os.path.join(result.folder, "a.npy")).values, load_json(result.output)
 
 
@@ -159,6 +161,22 @@ def nrrd(values):
     """16-bit voxels as a file."""
     head = f"NRRD0004\ntype: uint16\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nencoding: raw\nendian: little\n\n"
     return head.encode() + b"".join(v.to_bytes(2, "little") for v in values)
+
+
+@suite.case
+def bytes_and_floats():
+    "bytes, which lie four in a texel, have the values that a filter of floats gives"
+    sides, dice = (7, 4, 9), random.Random(5)
+    values = [dice.randrange(256) for _ in range(sides[0] * sides[1] * sides[2])]
+    head = "NRRD0004\ntype: %s\ndimension: 3\nsizes: %d %d %d\nencoding: raw\nendian: little\nmin: 0\nmax: %d\n\n"
+    files = {"bytes.nrrd": (head % ("uint8", *sides, 255)).encode() + bytes(values),
+             "floats.nrrd": (head % ("float", *sides, 1)).encode()
+             + b"".join(struct.pack("<f", v / 255) for v in values)}
+    pictures = [draw((volume("", data='ImageTexture3D { url "%s" }' % name),), "--step", 0.5, "--method", "preintegrated",
+                     files=files)[0] for name in files]
+    worst = max(map(abs, map(operator.sub, *pictures)))
+    suite.check("bytes as floats", worst < 1e-4, worst)
+    suite.check("something is seen", max(pictures[0]) > 0.2, max(pictures[0]))
 
 
 suite.run()
