@@ -83,6 +83,7 @@ static bool find_volume_source(const plr_symbol *symbol, plr_slot *slot) {
         const char *name;
         size_t offset;
     } textures[] = {{"labels", offsetof(plr_volume_state, labels)},
+                    {"cellLabels", offsetof(plr_volume_state, cell_labels)},
                     {"integrals", offsetof(plr_volume_state, integrals)},
                     {"voxelGradients", offsetof(plr_volume_state, gradients)},
                     {"voxelQuads", offsetof(plr_volume_state, quads)},

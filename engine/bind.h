@@ -73,7 +73,8 @@ typedef struct plr_volume_state {
     bool general;             /* of a general world: what is switched off counts, too */
     bool hidden;              /* all its styles are switched off */
     plr_grid *grid;
-    plr_texture *labels; /* segment numbers; or NULL */
+    plr_texture *labels;      /* segment numbers; or NULL */
+    plr_texture *cell_labels; /* that cells have in common; or NULL */
     plr_volume_kind kind;
     float (*surfaces)[2]; /* value, ascending, and number; of PLR_VOLUME_SURFACES */
     size_t surface_count;

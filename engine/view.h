@@ -60,8 +60,9 @@ typedef struct plr_kept_volume {
     const plr_node *node; /* that has them in a field: VolumeData, BlendedVolumeStyle */
     uint64_t revision;    /* of its nodes, when they were read */
     plr_grid grid;
-    uint32_t full_size[3];  /* of the data, before they were brought down to fit */
-    plr_texture *labels;    /* or NULL */
+    uint32_t full_size[3]; /* of the data, before they were brought down to fit */
+    plr_texture *labels;   /* or NULL */
+    plr_texture *cell_labels;
     plr_texture *gradients; /* of the voxels; NULL: not asked for yet */
     plr_texture *quads;     /* the voxels again, four a texel; NULL: not asked for yet */
     bool placed;            /* the file says where it is and how large: */

@@ -9,6 +9,7 @@
 #include "engine/volume.h"
 #include "engine/volume_bends.h"
 #include "engine/volume_blocks.h"
+#include "engine/volume_label_cells.h"
 #include "engine/volume_geometry.h"
 
 enum {
@@ -42,6 +43,8 @@ static plr_kept_volume *find_kept(plr_view *view, const plr_node *owner, uint64_
         kept->grid.voxels->kept = false;
         if (kept->labels)
             kept->labels->kept = false;
+        if (kept->cell_labels)
+            kept->cell_labels->kept = false;
         if (kept->gradients)
             kept->gradients->kept = false;
         if (kept->quads)
@@ -265,6 +268,10 @@ const plr_kept_volume *plr_volume_keep(plr_view *view, const plr_node *owner, pl
     }
     kept->grid.voxels = keep_texture(view, &r.voxels, PLR_TEXTURE_3D);
     kept->grid.voxels->in_bricks = kept->grid.brick_sides[0] > 0;
+    if (kept->blocks && r.labels.samples) {
+        plr_image cells = plr_label_cells(&view->lasting, &r.labels);
+        kept->cell_labels = keep_texture(view, &cells, PLR_TEXTURE_3D_LABELS);
+    }
     kept->labels = keep_texture(view, &r.labels, PLR_TEXTURE_3D_LABELS);
     *PLR_PUSH(&view->lasting, &view->kept_volumes) = kept;
     return kept;
@@ -308,6 +315,7 @@ bool plr_volume_load(plr_view *view, const plr_leaf *leaf, plr_volume_state *sta
     *state->grid = kept->grid;
     *PLR_PUSH(&view->arena, &view->volumes.grids) = state->grid;
     state->labels = kept->labels;
+    state->cell_labels = kept->cell_labels;
     state->file_place = kept->place;
     state->hash = kept->hash;
     state->blocks = kept->blocks;

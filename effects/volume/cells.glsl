@@ -38,6 +38,9 @@ float cubic[4];       /* the value over one of them, from 0 to 1 */
 vec4 cell_functions[8]; /* in each of them, as they stand in `sums`; or NOT_SEEN */
 vec4 function_here;
 const vec4 NOT_SEEN = vec4(0.0, 1.0, 1.0e30, -1.0e30);
+uniform usampler3D cellLabels; /* of the cells between voxels: the label that these have in common */
+const float LABELS_DIFFER = 255.0; /* there, where they have none; the same in C: PLR_LABELS_DIFFER */
+float piece_label;
 #endif
 
 #if HAS_WALL
@@ -56,14 +59,8 @@ bool is_looked_at(const in int k, const in float t) {
 
 /* Along each axis the first face that lies behind t. */
 void find_faces(const in float t) {
-#if HAS_LABELS
-    /* the label is that of the nearest voxel: cells are cut in the middle, too */
-    face_step = mix(vec3(-0.5), vec3(0.5), greaterThanEqual(cell_direction, vec3(0.0)));
-    next_face = 0.5 * floor(2.0 * (cell_origin + t * cell_direction)) - face_step;
-#else
     face_step = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(cell_direction, vec3(0.0)));
     next_face = floor(cell_origin + t * cell_direction) - face_step;
-#endif
     for (int i = 0; i < 3; i++)
         next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(t)));
 }
@@ -83,12 +80,30 @@ void PLUG_volume_cells_leap(const in float t, inout float end) {
 #endif
 
 #if HAS_LABELS
-/* The function of the segment at a place, in cells. */
-vec4 function_at(const in vec3 place) {
-    vec3 size = vec3(textureSize(labels, 0));
-    vec3 voxel = clamp(floor(place - 0.5), vec3(0.0), size - 1.0);
+float at_voxel(const in usampler3D numbers, const in vec3 voxel) {
+    vec3 size = vec3(textureSize(numbers, 0));
+    return float(texture(numbers, (clamp(voxel, vec3(0.0), size - 1.0) + 0.5) / size).r);
+}
+
+/* The label of the piece that begins at t, and how far it reaches. The label is that of the nearest voxel: where those around
+ * the cell differ it is cut in the middle, too. Faces and middles tell the voxel: rounding takes none for its neighbour. */
+void find_label(const in float t, inout float end) {
+    vec3 middle = next_face - 0.5 * face_step, cell = floor(middle);
+    piece_label = at_voxel(cellLabels, cell - 1.0);
+    if (piece_label != LABELS_DIFFER)
+        return;
+    vec3 to_middles = (middle - cell_origin) * cell_inverse;
+    bvec3 before = greaterThan(to_middles, vec3(t));
+    vec3 ends = mix(vec3(NOWHERE), to_middles, before);
+    end = min(end, min(min(ends.x, ends.y), ends.z));
+    vec3 upper = abs(vec3(greaterThan(face_step, vec3(0.0))) - vec3(before));
+    piece_label = at_voxel(labels, cell - 1.0 + upper);
+}
+
+/* The function of a label. */
+vec4 function_of(const in float label) {
     vec2 texels = vec2(textureSize(sums, 0));
-    float number = min(float(texture(labels, (voxel + 0.5) / size).r), texels.x - 1.0);
+    float number = min(label, texels.x - 1.0);
     return texture(sums, (vec2(number, texels.y - 1.0) + 0.5) / texels);
 }
 
@@ -111,6 +126,9 @@ void PLUG_volume_cells_begin(const in float t) {
 void PLUG_volume_cell(const in float t, inout float end) {
     vec3 to_faces = (next_face - cell_origin) * cell_inverse;
     float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
+#if HAS_LABELS
+    find_label(t, to_face);
+#endif
     end = is_inside(t) ? max(min(end, to_face), t) : end;
 }
 
@@ -118,9 +136,6 @@ void PLUG_volume_cell(const in float t, inout float end) {
 void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t, const in float end) {
     float span = end - t;
     float v0 = cell_values[k], v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
-#if HAS_LABELS
-    vec3 middle = next_face - 0.5 * face_step;
-#endif
     next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(end)));
     first_values[k] = v1;
     second_values[k] = v2;
@@ -132,7 +147,7 @@ void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t,
 #if HAS_LABELS
     vec4 function = NOT_SEEN;
     if (seen)
-        function = function_at(middle);
+        function = function_of(piece_label);
     seen = max(max(v0, v3), max(b1, b2)) > function.z && min(min(v0, v3), min(b1, b2)) < function.w;
     cell_functions[k] = seen ? function : NOT_SEEN;
 #endif

@@ -2,6 +2,8 @@
 #include "volume_test.h"
 
 #include "engine/texture.h"
+#include "engine/volume_blocks.h"
+#include "engine/volume_label_cells.h"
 #include "triangle.h"
 
 static plr_volume make_volume(plr_voxel_type type, uint32_t count, uint32_t components,
@@ -155,7 +157,105 @@ static void test_uploads(void) {
     plr_context_destroy(&context);
 }
 
+/* ---- Cells and blocks ---- */
+
+static uint32_t label_at(const plr_image *image, int x, int y, int z) {
+    const int size[3] = {(int)image->width, (int)image->height, (int)image->depth};
+    int at[3] = {x, y, z};
+    for (int i = 0; i < 3; i++)
+        at[i] = at[i] < 0 ? 0 : at[i] < size[i] ? at[i] : size[i] - 1;
+    return (uint32_t)plr_image_sample(image, (uint32_t)at[0], (uint32_t)at[1], (uint32_t)at[2], 0);
+}
+
+/* What cell i has in common, where cells lie behind voxels. */
+static uint32_t common_label(const plr_image *image, const int cell[3]) {
+    uint32_t first = label_at(image, cell[0], cell[1], cell[2]);
+    bool same = first < PLR_LABELS_DIFFER;
+    for (int i = 1; i < 8; i++)
+        same = same && label_at(image, cell[0] + (i & 1), cell[1] + (i >> 1 & 1),
+                                cell[2] + (i >> 2)) == first;
+    return same ? first : PLR_LABELS_DIFFER;
+}
+
+/* Which labels a block of 4 x 4 x 4 cells reaches; cell c lies between voxels c - 1 and c. */
+static uint64_t block_labels(const plr_image *image, const int block[3]) {
+    uint64_t found = 0;
+    for (int z = 4 * block[2] - 1; z <= 4 * block[2] + 3; z++)
+        for (int y = 4 * block[1] - 1; y <= 4 * block[1] + 3; y++)
+            for (int x = 4 * block[0] - 1; x <= 4 * block[0] + 3; x++) {
+                uint32_t label = label_at(image, x, y, z);
+                found |= UINT64_C(1) << (label < 63 ? label : 63);
+            }
+    return found;
+}
+
+static void check_cells(plr_arena *arena, const plr_image *labels, const char *name) {
+    plr_image cells = plr_label_cells(arena, labels);
+    const uint8_t *at = cells.samples;
+    size_t wrong = 0;
+    for (int z = 0; z < (int)cells.depth; z++)
+        for (int y = 0; y < (int)cells.height; y++)
+            for (int x = 0; x < (int)cells.width; x++)
+                wrong += *at++ != common_label(labels, (int[]){x, y, z});
+    CHECK_INT(cells.width, labels->width > 1 ? labels->width - 1 : 1);
+    TAP_RESULT(wrong == 0, "%s: labels that cells have in common", name);
+    plr_image_free(&cells);
+    plr_blocks blocks = {
+        .size = {(labels->width + 4) / 4, (labels->height + 4) / 4, (labels->depth + 4) / 4}};
+    plr_blocks_add_labels(arena, &blocks, labels);
+    size_t i = wrong = 0;
+    uint64_t all = 0;
+    for (uint32_t z = 0; z < blocks.size[2]; z++)
+        for (uint32_t y = 0; y < blocks.size[1]; y++)
+            for (uint32_t x = 0; x < blocks.size[0]; x++, i++) {
+                wrong += blocks.labels[i] != block_labels(labels, (int[]){(int)x, (int)y, (int)z});
+                all |= blocks.labels[i];
+            }
+    TAP_RESULT(wrong == 0 && blocks.all_labels == all, "%s: labels of blocks", name);
+}
+
+static void test_cells(void) {
+    static const struct {
+        const char *name;
+        plr_sample_type type;
+        uint32_t size[3], labels;
+    } cases[] = {{"few", PLR_UINT8, {9, 6, 7}, 2},     {"one voxel", PLR_UINT8, {1, 1, 1}, 3},
+                 {"a row", PLR_UINT8, {1, 13, 1}, 2},  {"up to 255", PLR_UINT8, {6, 5, 4}, 256},
+                 {"many", PLR_UINT16, {5, 8, 3}, 300}, {"one, large", PLR_UINT32, {4, 4, 4}, 1}};
+    jmp_buf out_of_memory;
+    plr_arena arena;
+    plr_arena_init(&arena, NULL, &out_of_memory);
+    if (setjmp(out_of_memory))
+        return;
+    uint32_t seed = 7;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        plr_image image = {.width = cases[c].size[0],
+                           .height = cases[c].size[1],
+                           .depth = cases[c].size[2],
+                           .components = 1,
+                           .type = cases[c].type};
+        size_t count = (size_t)image.width * image.height * image.depth;
+        image.samples = calloc(count, 4);
+        for (size_t i = 0; image.samples && i < count; i++) {
+            seed = seed * 1664525 + 1013904223;
+            /* regions of three and two, so that cells have something in common */
+            uint32_t label =
+                (seed >> 16) % 4 ? (uint32_t)(i / 3 % 2) : (seed >> 20) % cases[c].labels;
+            if (image.type == PLR_UINT8)
+                ((uint8_t *)image.samples)[i] = (uint8_t)label;
+            else if (image.type == PLR_UINT16)
+                ((uint16_t *)image.samples)[i] = (uint16_t)label;
+            else
+                ((uint32_t *)image.samples)[i] = 100000;
+        }
+        check_cells(&arena, &image, cases[c].name);
+        plr_image_free(&image);
+    }
+    plr_arena_finish(&arena);
+}
+
 int main(void) {
+    test_cells();
     test_types();
     test_odd_numbers();
     test_uploads();
