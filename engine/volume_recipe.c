@@ -32,8 +32,8 @@ static const char *const segment_units[] = {
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                                 const plr_cast *cast) {
     bool segments = is_segmented(cast), cells = cast->plan.method == PLR_METHOD_CELLS;
-    /* of volumes together each has few textures */
-    bool quads = segments && !cells && cast->count == 1 && state->grid->bytes &&
+    /* of volumes together each has few textures; in general worlds values may get another range */
+    bool quads = segments && !cells && cast->count == 1 && !state->general && state->grid->bytes &&
                  plr_volume_can_derive(state);
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
