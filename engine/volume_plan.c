@@ -175,17 +175,21 @@ static bool are_styled(const plr_view *view, const plr_cast *cast) {
  * volume. */
 static bool can_be_cut(plr_view *view, const plr_cast *cast, plr_method method) {
     enum {
-        MOST_TOGETHER = 3
+        MOST_TOGETHER = 3,
+        MOST_TEXTURES = 15, /* of 16; one is for depths */
+        TEXTURES = 4,       /* of a volume: its voxels, two of its table, leaps */
+        LABEL_TEXTURES = 2
     };
-    int walls = 0;
+    int walls = 0, textures = 0;
     bool whole = true;
     for (size_t i = 0; i < cast->count; i++) {
-        const plr_table *table = view->volumes.volumes[cast->members[i]].table;
-        walls += table->walls;
-        whole = whole && table->texture;
+        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        walls += state->table->walls;
+        whole = whole && state->table->texture;
+        textures += TEXTURES + (state->labels ? LABEL_TEXTURES : 0);
     }
     bool segments = method == PLR_METHOD_PREINTEGRATED || are_styled(view, cast);
-    return cast->count <= MOST_TOGETHER &&
+    return cast->count <= MOST_TOGETHER && textures <= MOST_TEXTURES &&
            !(segments && (!whole || walls > (cast->count > 1 ? 0 : 1))) &&
            !plr_cast_is_divided(view, cast);
 }

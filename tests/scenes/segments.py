@@ -187,7 +187,8 @@ def planned():
             ("colours", segmented([RED], data=voxels(3, (4, 1, 1), range(4))), False),
             ("no labels", segmented([RED, GREEN], ""), True),
             ("as many as there is room for", segmented(many, **plenty), True),
-            ("in two places", segmented([RED, GREEN]) + segmented([GREEN]), True)):
+            ("in two places", segmented([RED, GREEN]) + segmented([GREEN]), True),
+            ("in two of three", 2 * segmented([RED, GREEN]) + segmented([GREEN], ""), False)):
         suite.equal(name, told(front_scene(text))[:2], ("cells", "bounded") if bounded else ("midpoint", "estimated"))
     text = front_scene(segmented([RED]))
     drawn = suite.render(text, "--probe", "5,8", "--step", ".4", "--method", "preintegrated", "--stats", "json").output
