@@ -83,6 +83,7 @@ plr_table *plr_volume_make_table(plr_view *view, const plr_volume_state *state,
     }
     plr_table_wish wish = {.slack = find_slack(state->grid),
                            .in_stack = in_stack,
+                           .bare = function->bare,
                            .error = state->general || !gentle ? 0
                                     : view->desc.error > 0    ? view->desc.error
                                                               : USUAL_ERROR};
@@ -128,8 +129,8 @@ plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
     return plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D_LABELS, false);
 }
 
-/* Makes the table of a volume that has one. */
-static bool find_table(plr_view *view, plr_volume_state *state) {
+/* Makes the table of a volume that has one; `bare`: for leaping alone. */
+static bool find_table(plr_view *view, plr_volume_state *state, bool bare) {
     const plr_field *styles = plr_node_field(state->node, "renderStyle");
     if (plr_node_is(state->node, "SegmentedVolumeData"))
         return plr_volume_find_segments(view, state);
@@ -142,13 +143,16 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     search_styles(style, true, &search);
     plr_style_map found;
     bool plain = plr_style_find_map(style, state->general, &found);
-    bool bare = plain ? found.bare : search.bare || (style && !search.any && !search.styled);
+    bool ramp = plain ? found.bare : search.bare || (style && !search.any && !search.styled);
     const plr_node *map = plain ? found.map : search.map;
     const plr_atlas_place *place = NULL;
-    if (!bare && !(place = plr_style_place(view, map, state->grid)))
+    if (!ramp && !(place = plr_style_place(view, map, state->grid)))
         return false;
-    const plr_function function = {place, plain ? found.factor : 1};
+    const plr_function function = {place, plain ? found.factor : 1, bare};
     state->table = plr_volume_make_table(view, state, &function, false, true);
+    state->leaps = plr_volume_make_leaps(view, state, NULL, NULL);
+    if (bare)
+        return true;
     state->styled = !plain || state->authors_act ||
                     plr_pass_fog(view, view->volumes.leaves[state->index]->scope)->node;
     state->integrals = state->table->texture;
@@ -157,7 +161,6 @@ static bool find_table(plr_view *view, plr_volume_state *state) {
     state->sums = state->table->sums;
     state->ranges = state->table->ranges;
     plr_table_seen(state->table, state->seen);
-    state->leaps = plr_volume_make_leaps(view, state, NULL, NULL);
     return true;
 }
 
@@ -198,7 +201,7 @@ static bool has_tables(plr_view *view, const plr_cast *cast) {
     bool tabled = true;
     for (size_t i = 0; tabled && i < cast->count; i++) {
         plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
-        tabled = state->table || find_table(view, state);
+        tabled = state->table || find_table(view, state, false);
     }
     return tabled;
 }
@@ -289,6 +292,15 @@ static bool is_certain(plr_view *view, plr_cast *cast) {
     return true;
 }
 
+/* Whether samples in the middle of steps may be passed over by blocks: where clear ones may be one
+ * by one. */
+static bool can_leap(plr_view *view, const plr_cast *cast, bool early_end) {
+    plr_volume_state *state = &view->volumes.volumes[cast->members[0]];
+    return !view->desc.no_leaping && cast->count == 1 && !state->general &&
+           plr_cast_skips(view, cast, early_end) && !plr_cast_is_divided(view, cast) &&
+           (state->table || find_table(view, state, true));
+}
+
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
     plr_plan *plan = &cast->plan;
@@ -304,8 +316,10 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
                         : fixed                         ? PLR_METHOD_MIDPOINT
                                                         : PLR_METHOD_CELLS;
     bool tabled = wanted != PLR_METHOD_MIDPOINT && has_tables(view, cast);
-    if (tabled && desc->method == PLR_METHOD_AUTO && early_end && is_certain(view, cast))
+    if (tabled && desc->method == PLR_METHOD_AUTO && early_end && is_certain(view, cast)) {
+        plan->leaps = can_leap(view, cast, early_end);
         return;
+    }
     if (wanted != PLR_METHOD_MIDPOINT && !(tabled && can_be_cut(view, cast, wanted))) {
         plan->why =
             "samples in the middle of steps: a volume is not made visible by one transfer function "
@@ -313,9 +327,10 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
         return;
     }
     plan->method = wanted;
+    plan->leaps =
+        wanted == PLR_METHOD_MIDPOINT ? can_leap(view, cast, early_end) : !desc->no_leaping;
     if (wanted == PLR_METHOD_MIDPOINT)
         return;
-    plan->leaps = !desc->no_leaping;
     if (wanted == PLR_METHOD_CELLS && are_styled(view, cast)) {
         plan->method = PLR_METHOD_PREINTEGRATED;
         plan->why = "styles change what transfer functions make visible: they look at one place of "

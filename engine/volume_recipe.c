@@ -26,8 +26,11 @@ static const char *const volume_units[] = {
 
 /* The same of volumes with a table. */
 static const char *const segment_units[] = {
-    "volume/Volume volume/grid volume/table volume/segments",
-    "volume/Volume volume/grid volume/table volume/cells"};
+    "volume/Volume volume/grid volume/leaps volume/table volume/segments",
+    "volume/Volume volume/grid volume/leaps volume/table volume/cells"};
+
+/* Of volumes whose steps lead through blocks where nothing can be seen. */
+static const char leaping_units[] = "volume/Volume volume/grid volume/leaps volume/steps";
 
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                                 const plr_cast *cast) {
@@ -48,7 +51,9 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
-    const char *units = segments ? segment_units[cells] : volume_units[state->kind];
+    const char *units = segments                           ? segment_units[cells]
+                        : cast->plan.leaps && !cast->picks ? leaping_units
+                                                           : volume_units[state->kind];
     return plr_recipe_builtin(&view->kitchen, recipe, units, plr_node_type(state->node),
                               (plr_binding){.node = state->node,
                                             .to_world = state->to_world,
@@ -202,7 +207,7 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
     } defines[] = {
         {"SEGMENTS", is_segmented(cast)},
         {"CELLS", cast->plan.method == PLR_METHOD_CELLS},
-        {"LEAPS", cast->plan.leaps},
+        {"LEAPS", cast->plan.leaps && !cast->picks},
         {"HAS_WALL", is_segmented(cast) && has_wall(view, cast)},
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
         {"HAS_EVENTS", events},

@@ -64,7 +64,7 @@ static bool add_number(segments *s, uint32_t number) {
         return true;
     if (!plr_style_find_map(style, s->state->general, &found))
         return false;
-    plr_function function = {NULL, found.factor};
+    plr_function function = {NULL, found.factor, false};
     if (!found.bare && !(function.place = plr_style_place(s->view, found.map, s->state->grid)))
         return false;
     if (!add_function(s, &function, which))
@@ -120,7 +120,7 @@ static bool sees(const void *user, size_t block) {
 /* All of one segment. */
 static void make_single(segments *s) {
     plr_volume_state *state = s->state;
-    plr_function function = {NULL, 0}; /* hidden */
+    plr_function function = {NULL, 0, false}; /* hidden */
     if (s->numbers[0] != PLR_TABLE_NONE)
         function = s->functions[s->numbers[0]];
     state->table = plr_volume_make_table(s->view, state, &function, false, true);
@@ -132,7 +132,7 @@ static void make_single(segments *s) {
 static void make_stack(segments *s) {
     plr_volume_state *state = s->state;
     if (!s->function_count) /* all are hidden */
-        s->functions[s->function_count++] = (plr_function){NULL, 0};
+        s->functions[s->function_count++] = (plr_function){NULL, 0, false};
     make_tables(s);
     state->seen[0] = INFINITY;
     state->seen[1] = -INFINITY;

@@ -498,6 +498,10 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     t->texels = kept;
     t->texel_count = count;
     find_wall(t, texels, count);
+    if (wish->bare) {
+        set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
+        return t;
+    }
     set_nodes(t, arena, texels, count, choose_sums(texels, count, wish->error, &t->gentle));
     t->sum_nodes = t->nodes;
     t->sum_rows = PLR_NEW_ARRAY(arena, (size_t)16 * t->nodes, float);

@@ -44,6 +44,7 @@ typedef struct plr_table_wish {
     double error;  /* that may be; 0: it is to be used as if the function were not gentle */
     bool in_stack; /* it gets no textures: it is one of several in those of another
                       (plr_table_stack) */
+    bool bare;     /* all it is asked for is what can be seen */
 } plr_table_wish;
 
 /* Of texels of RGBA, straight, interpolated linearly; at least two. */

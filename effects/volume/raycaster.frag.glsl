@@ -67,7 +67,11 @@ float part_count(const in CellNeed need, const in float share, const in float th
 #endif
 
 #if SKIPS
+#if LEAPS
+const int LOOK_AHEAD = 8; /* steps; then it may be time to leap again */
+#else
 const int LOOK_AHEAD = 32; /* steps, one a bit */
+#endif
 #if MIXES
 vec4 ahead_sums[LOOK_AHEAD]; /* of those that something was found in, see VolumeMix */
 uint ahead_mixed;
@@ -553,6 +557,16 @@ void main() {
          * the least cost; then what can be seen is drawn, in the same places. */
         int ahead = 0;
         while (ahead < steps) {
+#if LEAPS
+            while (ahead < steps) {
+                float at = t + (float(ahead) + 0.5) * step_length;
+                int leap = steps - ahead;
+                /* PLUG: volume_leap (at, step_length, leap) */
+                if (leap == 0)
+                    break;
+                ahead += leap;
+            }
+#endif
             int first = ahead;
             uint visible = 0u;
             for (; ahead < steps && ahead < first + LOOK_AHEAD; ahead++) {

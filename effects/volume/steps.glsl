@@ -1,6 +1,9 @@
 /* A volume that fills its box: samples in steps along the ray. A unit of Volume.glsl's effect. */
 
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
+#if LEAPS
+    cells_begin(voxel_count());
+#endif
 }
 
 /* Colour and opacity per reference length in the middle of a step. */
@@ -23,6 +26,18 @@ bool is_visible(const in float t) {
     return true;
 #endif
 }
+
+#if LEAPS
+/* How many samples from that at t on lie in blocks where nothing can be seen. */
+void PLUG_volume_leap(const in float t, const in float step_length, inout int steps) {
+    vec3 corner;
+    float blocks = leap_at(cell_origin + t * cell_direction, corner);
+    vec3 ends = (corner - cell_origin) * cell_inverse;
+    float end = min(min(ends.x, ends.y), ends.z);
+    int inside = 1 + int(clamp((end - t) / step_length - 1.0e-3, 0.0, 1.0e6));
+    steps = min(steps, blocks > 0.0 ? inside : 0);
+}
+#endif
 
 #if MIXES
 int ahead_start; /* which of the steps ahead are in the volume */

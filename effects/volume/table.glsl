@@ -15,14 +15,6 @@
 #if !CELLS
 uniform sampler2D integrals; /* mean of colour * extinction, and of extinction, per reference length */
 #endif
-uniform usampler3D leaps;    /* blocks from here to the next in which anything can be seen */
-
-const float BLOCK_CELLS = 4.0; /* the same in C: PLR_BLOCK_CELLS */
-
-/* Along the ray in cells: cell c lies between the centres of voxels c - 1 and c. */
-vec3 cell_origin;
-vec3 cell_direction;
-vec3 cell_inverse;
 #if !CELLS
 vec2 table_place; /* from values to texture coordinates of the table: scale and shift */
 #endif
@@ -52,8 +44,7 @@ float value_at(const in float t) {
 
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     vec3 count = voxel_count();
-    cell_origin = ray_origin * count + 0.5;
-    cell_direction = ray_direction * count;
+    cells_begin(count);
 #if HAS_QUADS
     texel_size = 1.0 / count;
 #endif
@@ -62,7 +53,6 @@ void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
     table_place = vec2((nodes - 1.0) / nodes, 0.5 / nodes);
 #endif
     depth_ratio = ray_speed / referenceLength;
-    cell_inverse = 1.0 / mix(cell_direction, vec3(1.0e-30), equal(cell_direction, vec3(0.0)));
 }
 
 bool is_inside(const in float t) {
@@ -90,19 +80,6 @@ void style_mean(inout vec4 mean, const in float t, const in float span, const in
     style_at(color, t, span, origin_eye, direction_eye);
     float extinction = color.a == before ? mean.a : -log(max(1.0 - color.a, 1.0e-30));
     mean = extinction * vec4(color.rgb, 1.0);
-}
-#endif
-
-#if LEAPS
-/* How many blocks it is to the next in which anything can be seen, and the corner, in cells, of the cube of
- * blocks around a place where nothing can, that a ray leaves by. */
-float leap_at(const in vec3 place, out vec3 corner) {
-    vec3 block = floor(place / BLOCK_CELLS);
-    ivec3 texel = clamp(ivec3(block), ivec3(0), textureSize(leaps, 0) - 1);
-    float blocks = float(texture(leaps, (vec3(texel) + 0.5) / vec3(textureSize(leaps, 0))).r);
-    corner = BLOCK_CELLS *
-             (block + mix(vec3(1.0 - blocks), vec3(blocks), greaterThanEqual(cell_direction, vec3(0.0))));
-    return blocks;
 }
 #endif
 

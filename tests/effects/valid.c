@@ -280,7 +280,7 @@ static const plr_define fog_of_volume[] = {
         "PICKS", "0"                                                                               \
     }
 #define NO_SEGMENTS                                                                                \
-    {"SEGMENTS", "0"}, {"CELLS", "0"}, {                                                           \
+    {"SEGMENTS", "0"}, {"CELLS", "0"}, {"LEAPS", "0"}, {                                           \
         "HAS_WALL", "0"                                                                            \
     }
 #define EVERY_STEP                                                                                 \
@@ -294,6 +294,10 @@ static const plr_define one_skipping[] = {
     {"MIXES", "0"},      {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"},
     {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
     WHOLE_RAYS,          NO_SEGMENTS,         {"SKIPS", "1"}};
+static const plr_define one_leaping[] = {
+    {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SEGMENTS", "0"},
+    {"CELLS", "0"},     {"LEAPS", "1"},      {"HAS_WALL", "0"},  {"SKIPS", "1"}};
 static const plr_define two_skipping[] = {
     {"MIXES", "1"},      {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"},
     {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
@@ -310,7 +314,7 @@ static const plr_define in_segments[] = CUT("0", "1", "0", "0");
 static const plr_define two_in_segments[] = CUT("0", "0", "1", "1");
 static const plr_define in_cells[] = CUT("1", "1", "0", "0");
 static const plr_define two_in_cells[] = CUT("1", "1", "1", "1");
-#define TABLED "volume/Volume volume/grid volume/table "
+#define TABLED "volume/Volume volume/grid volume/leaps volume/table "
 static const plr_define tabled[] = {{"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},
                                     {"BRICKED", "0"},           {"PROJECTS", "0"},
                                     {"HAS_WALL", "0"},          {"HAS_QUADS", "0"}};
@@ -671,6 +675,14 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"}},
      DEFINES(one_skipping),
      .present = "lowest_bit volume_visible",
+     .absent = "VolumeMix ahead_sums leaps"},
+    {"one volume that leaps ahead",
+     "volume/raycaster",
+     {{.path = "volume/Volume volume/grid volume/leaps volume/steps", DEFINES(keeping)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(one_leaping),
+     .present = "lowest_bit volume_visible volume_leap leaps",
      .absent = "VolumeMix ahead_sums"},
     {"two volumes that look ahead",
      "volume/raycaster",

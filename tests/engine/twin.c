@@ -107,7 +107,7 @@ static size_t count_values(const plr_picture *picture) {
 }
 
 static bool add_view(comparison *c, plr_scene *scene, const char *viewpoint, double step) {
-    const plr_view_desc desc = {.viewpoint = viewpoint, .step = step};
+    const plr_view_desc desc = {.viewpoint = viewpoint, .step = step, .no_leaping = true};
     plr_view *view = plr_view_create(c->engine, scene, &desc, c->diags);
     size_t i = c->count;
     if (!view)

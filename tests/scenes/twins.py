@@ -7,8 +7,10 @@ its own, in tests/scenes/twins/. Of each pair are compared
 * texture fetches: as many,
 
 and nothing can be taken from a twin: without any one of its statements it draws another picture, or does
-not compile. usage: twins.py PLUGRAY TWIN [CASE...]; with PLUGRAY_TWINS=all in the environment that is
-asked of all twins, and of parts of expressions, too; else of a few."""
+not compile. Nobody leaps over blocks: that is something else to do.
+
+usage: twins.py PLUGRAY TWIN [CASE...]; with PLUGRAY_TWINS=all in the environment that is asked of all twins,
+and of parts of expressions, too; else of a few."""
 
 import os
 import shutil
