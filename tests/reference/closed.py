@@ -571,6 +571,18 @@ def one_opaque_value():
 
 
 @suite.case
+def opaque_at_a_label():
+    "a value that is opaque alone in one of two labels, where they meet: nobody can tell; a range of values ends the ray"
+    tent = [(0, 1, 1, 1, 0), (0.5, 1, 1, 1, 1), (1, 1, 1, 1, 0)]
+    for name, rows, expected in (("a tip", tent, 1), ("opaque from there on", tent[:2] + [(1, 1, 1, 1, 1)], 0)):
+        for other in (reference.HIDDEN, reference.points([(0, 1, 0, 0, 0.1), (1, 1, 0, 0, 0.1)])):
+            made = column((0, 1), reference.HIDDEN)
+            made.update(labels={"size": [1, 1, 2], "type": "u8", "numbers": [0, 1]}, segments=[reference.points(rows), other])
+            bar = reference.truth([made], FRONT, (1, 1), pixels=[(0, 0)])[1][0]
+            suite.check(name, bar > 0.1 if expected else bar < 1e-6, bar)
+
+
+@suite.case
 def factors():
     "constant factors on opacity and colour are clamped"
     rows = [(0, 0.4, 0.4, 0.4, 0), (1, 0.4, 0.4, 0.4, 0.5)]

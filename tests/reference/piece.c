@@ -75,13 +75,18 @@ static double away_from_opaque(ref_walk *walk, double t, const ref_cut *cut) {
 
 /* Whether the ray ends at t, in a value that is opaque; not where it enters or leaves a volume,
  * which has no length. If rounding alone may have kept it from that, what the pixel would be is
- * noted, the first time: that is where most shines through. */
-static bool ends_at(ref_sum *sum, double t, const ref_cut *cut) {
+ * noted, the first time: that is where most shines through. So it is where a label begins, or ends
+ * (`last`: t is the end of the piece), in a value that is opaque in it. */
+static bool ends_at(ref_sum *sum, double t, const ref_cut *cut, bool last) {
     double color[3] = {0}, least = INFINITY;
     int count = 0;
     for (int w = 0; w < sum->count; w++) {
         ref_walk *walk = sum->walks[w];
+        if (last && !walk->volume->labels.data)
+            continue;
         double away = ref_walk_inside(walk, t) ? away_from_opaque(walk, t, cut) : INFINITY;
+        if (last || t <= walk->label_from)
+            away = fmax(away, 2 * OPAQUE);
         least = fmin(least, away);
         if (away > UNCERTAIN)
             continue;
@@ -181,7 +186,7 @@ void ref_sum_add(ref_sum *sum, double from, double to) {
     double at = from;
     for (size_t i = 0; i <= sum->cut_count; i++) {
         const ref_cut *before = i ? &sum->cuts[i - 1] : NULL;
-        if (!sum->scene->touches_pass && ends_at(sum, at, before))
+        if (!sum->scene->touches_pass && ends_at(sum, at, before, false))
             return;
         double next = i < sum->cut_count ? sum->cuts[i].t : to;
         bool opaque;
@@ -196,4 +201,6 @@ void ref_sum_add(ref_sum *sum, double from, double to) {
         }
         at = next;
     }
+    if (!sum->scene->touches_pass)
+        ends_at(sum, to, NULL, true);
 }

@@ -172,7 +172,10 @@ void ref_walk_read(ref_walk *walk, double t) {
         least = fmin(least, corners[i]);
         greatest = fmax(greatest, corners[i]);
     }
-    walk->transfer = transfer_here(walk);
+    const ref_transfer *transfer = transfer_here(walk);
+    if (transfer != walk->transfer)
+        walk->label_from = t;
+    walk->transfer = transfer;
     walk->is_clear = ref_transfer_clear(walk->transfer, least, greatest);
     if (walk->is_clear)
         return;

@@ -29,6 +29,7 @@ typedef struct ref_walk {
     double value[4];
     double gradient[3][4]; /* in the world */
     const ref_transfer *transfer;
+    double label_from;            /* where the ray came to it */
     const ref_interval *interval; /* of the present piece */
     double to_light[3];           /* unit, in the world; light and viewer are in one place */
 } ref_walk;
