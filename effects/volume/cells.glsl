@@ -85,16 +85,19 @@ float at_voxel(const in usampler3D numbers, const in vec3 voxel) {
     return float(texture(numbers, (clamp(voxel, vec3(0.0), size - 1.0) + 0.5) / size).r);
 }
 
-/* The label of the piece that begins at t, and how far it reaches. The label is that of the nearest voxel: where those around
- * the cell differ it is cut in the middle, too. Faces and middles tell the voxel: rounding takes none for its neighbour. */
+/* The label of the piece that begins at t and ends at the next face, and where it ends, if before. The label is that of
+ * the nearest voxel: where those around the cell differ it is cut in the middle, too. Faces and middles tell the
+ * voxel: rounding takes none for its neighbour, nor does it leave slivers where the volume is cut just there. */
 void find_label(const in float t, inout float end) {
     vec3 middle = next_face - 0.5 * face_step, cell = floor(middle);
     piece_label = at_voxel(cellLabels, cell - 1.0);
     if (piece_label != LABELS_DIFFER)
         return;
-    vec3 to_middles = (middle - cell_origin) * cell_inverse;
-    bvec3 before = greaterThan(to_middles, vec3(t));
-    vec3 ends = mix(vec3(NOWHERE), to_middles, before);
+    vec3 ahead = (middle - cell_origin - t * cell_direction) * face_step;
+    vec3 beyond = (cell_origin + end * cell_direction - middle) * face_step;
+    vec3 rounded = 5.0e-7 * (abs(cell_origin) + abs(t * cell_direction));
+    vec3 ends = mix(vec3(NOWHERE), (middle - cell_origin) * cell_inverse, greaterThan(min(ahead, beyond), rounded));
+    bvec3 before = greaterThan(ahead, rounded);
     end = min(end, min(min(ends.x, ends.y), ends.z));
     vec3 upper = abs(vec3(greaterThan(face_step, vec3(0.0))) - vec3(before));
     piece_label = at_voxel(labels, cell - 1.0 + upper);
@@ -127,6 +130,7 @@ void PLUG_volume_cell(const in float t, inout float end) {
     vec3 to_faces = (next_face - cell_origin) * cell_inverse;
     float to_face = min(min(to_faces.x, to_faces.y), to_faces.z);
 #if HAS_LABELS
+    to_face = min(to_face, end);
     find_label(t, to_face);
 #endif
     end = is_inside(t) ? max(min(end, to_face), t) : end;

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""V9 and V3 once more, by labels: segments of one volume, each behind a transfer function of its own."""
+"""V1, V3 and V9 once more, by labels: segments of one volume, each behind a transfer function of its own."""
+
+import math
 
 import analytic_truth as truth
 from analytic_data import (BOUNDED, CELLS, EXACT, MIDPOINT, Case, Sheet, check_backends, check_case,
@@ -67,6 +69,17 @@ def slab_case(name, pair, box=OUTER, fields="", hidden=None):
                           orders={MIDPOINT: BOUNDED, CELLS: EXACT}, bound=bound)
 
 
+def cropped_case(side):
+    """One slab, cropped where the other one, which is opaque, begins: not even a sliver of it is seen."""
+    low, high = (0, 0, side / 2), (1, 1, (side + 1) / 2)
+    box = Box(OUTER.dimensions, SIZE, low, high, OUTER.place)
+    pair = [TWO if i == side else ((1, 0, 0), math.inf) for i in range(2)]
+    return segmented_case(f"V1 one slab of two, cropped {('above', 'below')[side]}", image3d("even.nrrd"),
+                          {"even.nrrd": sampled(box, lambda place: 0.4)}, box,
+                          labels_file("slabs.nrrd", lambda i, j, k: k // 3), list(map(even, pair)),
+                          lambda chord: truth.homogeneous(TWO[1], TWO[0], chord.length), orders={CELLS: EXACT})
+
+
 def ramp_case():
     """Extinctions linear in a ramp, one slope a segment; three slabs across y, of labels 1 0 1."""
     box = oblique_box()
@@ -90,7 +103,7 @@ def ramp_case():
 CASES = [slab_case("V9 two slabs of segments", (ONE, TWO)),
          slab_case("V9 two slabs of segments, swapped", (TWO, ONE)),
          slab_case("V9 two slabs of segments, one hidden", (ONE, TWO), fields="segmentEnabled [ FALSE ]", hidden=0),
-         ramp_case()]
+         cropped_case(0), cropped_case(1), ramp_case()]
 sheet = Sheet(suite, CASES, Parallel(0.5))
 TILTED = Box(OUTER.dimensions, SIZE, place=Transform(translation=(0.02, 0.01, 0), rotation=(0.3, 1, -0.4, 1.1)))
 FAR = [slab_case("V9 two slabs of segments, in perspective", (ONE, TWO), TILTED)]
