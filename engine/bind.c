@@ -316,7 +316,7 @@ static void set_slot(const plr_gl *gl, plr_textures *textures, const plr_slot *s
                      const plr_values *values) {
     const plr_volume_state *volume =
         slot->volume < values->volume_count ? &values->volumes[slot->volume] : NULL;
-    float numbers[16];
+    float numbers[64];
     switch (slot->source) {
     case SLOT_VALUE:
         slot->known->value(&(plr_known_context){values, slot->binding, volume}, numbers);

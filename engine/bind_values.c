@@ -189,6 +189,12 @@ static void v_wall_colors(const plr_known_context *c, float *out) {
 static void v_seen_values(const plr_known_context *c, float *out) {
     memcpy(out, c->volume->seen, sizeof c->volume->seen);
 }
+/* Errors of segments go with the square of their length: so may that of some that are joined. */
+static void v_join_reach(const plr_known_context *c, float *out) {
+    const plr_volume_state *v = c->volume;
+    double voxels = v->step / v->voxel;
+    plr_table_reach(v->table, 4 * v->step / v->reference, 0.02 * voxels * voxels, out);
+}
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
 }
@@ -303,6 +309,7 @@ static const plr_known known[] = {
     {"wallValues", OWNER_VOLUME, v_wall_values},
     {"wallColors", OWNER_VOLUME, v_wall_colors},
     {"seenValues", OWNER_VOLUME, v_seen_values},
+    {"joinReach", OWNER_VOLUME, v_join_reach},
     {"visibleValues", OWNER_FUNCTION, v_visible_values},
     {"voxelLength", OWNER_VOLUME, v_voxel_length},
     {"approach", OWNER_VOLUME, v_approach},

@@ -50,9 +50,9 @@ typedef struct plr_table_wish {
 /* Of texels of RGBA, straight, interpolated linearly; at least two. */
 plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float *texels,
                           uint32_t count, const plr_table_wish *wish);
-/* Several as one, which has `sums` and `ranges` alone: beside and above each other, and in a last row of
- * sums what of them belongs to each of `count` numbers, as cells.glsl has it; PLR_TABLE_NONE: there
- * nothing can be seen. All are gentle, or none. */
+/* Several as one, which has `sums` and `ranges` alone: beside and above each other, and in a last
+ * row of sums what of them belongs to each of `count` numbers, as cells.glsl has it;
+ * PLR_TABLE_NONE: there nothing can be seen. All are gentle, or none. */
 #define PLR_TABLE_NONE UINT32_MAX
 plr_table *plr_table_stack(plr_textures *textures, plr_arena *arena, plr_table *const *tables,
                            uint32_t table_count, const uint32_t *numbers, uint32_t count);
@@ -61,6 +61,11 @@ plr_image plr_table_image(plr_arena *arena, uint32_t width, uint32_t height);
 plr_texture *plr_table_numbers(plr_textures *textures, plr_image *image);
 /* The open interval outside of which nothing can be seen; its ends may be infinite. */
 void plr_table_seen(const plr_table *table, float seen[2]);
+/* For values in each bin of `ranges` how far up those of a part of a ray may reach, that it may be
+ * taken as a line of their mean: its integral errs by no more than `allowed`. `length`: of the
+ * part, in reference lengths. */
+void plr_table_reach(const plr_table *table, double length, double allowed,
+                     float reach[PLR_TABLE_RANGES]);
 /* Whether anything can be seen of values within a range. */
 bool plr_table_sees(const plr_table *table, double low, double high);
 /* A texture as `texture`: at which part of the way from the one value to the other lies, weighted

@@ -35,6 +35,9 @@ const int MOST_EVENTS = 4096; /* in one step */
 
 #if SEGMENTS
 const int CHUNK = 8; /* segments or cells that are looked at together; the same in segments.glsl and cells.glsl */
+#if PLUG_USED(volume_join)
+const int JOINED = 4; /* so many are taken together where that is as good; they begin at multiples of it */
+#endif
 #endif
 #if CELLS
 uniform float errorAllowed; /* of the integral along a ray */
@@ -391,6 +394,9 @@ void main() {
             float at = t + float(i) * step_length;
             int leap = steps - i;
             /* PLUG: volume_leap (at, step_length, leap) */
+#if PLUG_USED(volume_join)
+            leap = i + leap < steps ? leap & -JOINED : leap;
+#endif
             if (leap == 0)
                 break;
             i += leap;
@@ -414,16 +420,28 @@ void main() {
             int left = steps - first;
             if (left < CHUNK)
                 visible &= (1u << uint(left)) - 1u;
+#if PLUG_USED(volume_join)
+            uint joined = 0u; /* begin here, and are as good as one */
+            for (int k = 0; k < CHUNK; k += JOINED)
+                if (first + k > 0 && first + k + JOINED + 1 < steps) { /* they and their neighbours are as long */
+                    /* PLUG: volume_join (visible, joined, k) */
+                }
+#endif
             while (visible != 0u) {
                 int k = lowest_bit(visible);
                 visible &= visible - 1u;
                 int n = first + k;
+#if PLUG_USED(volume_join)
+                int count = (joined >> uint(k) & 1u) != 0u ? JOINED : 1;
+#else
+                const int count = 1;
+#endif
                 float begin = t + float(n) * step_length;
-                float end = n + 1 < steps ? t + float(n + 1) * step_length : t_next;
+                float end = n + count < steps ? t + float(n + count) * step_length : t_next;
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
                 float span = end - begin;
                 bool even = n > 0 && n + 2 < steps; /* its neighbours are as long */
-                /* PLUG: volume_segment (mixed, k, begin, span, even, origin_eye, direction_eye) */
+                /* PLUG: volume_segment (mixed, k, count, begin, span, even, origin_eye, direction_eye) */
                 VolumeSample s;
                 vec4 color = volume_mix_color(mixed);
 #if READS(position_eye)
@@ -455,6 +473,9 @@ void main() {
                 float at = t + float(i) * step_length;
                 int leap = steps - i;
                 /* PLUG: volume_leap (at, step_length, leap) */
+#if PLUG_USED(volume_join)
+                leap = i + leap < steps ? leap & -JOINED : leap;
+#endif
                 if (leap == 0)
                     break;
                 i += leap;

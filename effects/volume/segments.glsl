@@ -1,4 +1,11 @@
-/* A volume with a table (table.glsl), cut into segments of equal length. A unit of Volume.glsl's effect. */
+/* A volume with a table (table.glsl), cut into segments of equal length, of which four may be joined. A unit of
+ * Volume.glsl's effect. */
+
+#if !MIXES && !STYLED && !HAS_WALL
+#define JOINS 1 /* nothing else happens at segments */
+#else
+#define JOINS 0
+#endif
 
 uniform vec2 seenValues; /* outside of this open interval values are clear */
 
@@ -42,10 +49,35 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
 }
 #endif
 
-/* What lies along segment k of those that are looked at together; `even`: its neighbours are as long. */
-void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t, const in float span,
+#if JOINS
+/* Four segments are as good as one where the function is nearly linear in all their values: between the least
+ * and this, by bins of the least. See plr_table_reach. */
+uniform float joinReach[64];
+
+float shifts[2]; /* of the lines of those that are joined, k / 4 */
+
+void PLUG_volume_join(inout uint visible, inout uint joined, const in int k) {
+    float from = values[k + 1], to = values[k + 5];
+    vec3 inner = vec3(values[k + 2], values[k + 3], values[k + 4]);
+    float low = min(min(from, to), min(min(inner.x, inner.y), inner.z));
+    float high = max(max(from, to), max(max(inner.x, inner.y), inner.z));
+    /* the line has the mean of all, to fourth order (Euler, Maclaurin) */
+    float mean = 0.125 * (from + to) + 0.25 * (inner.x + inner.y + inner.z) -
+                 (values[k] - inner.x - inner.z + values[k + 6]) / 96.0;
+    shifts[k >> 2] = 0.5 * (from + to) - mean;
+    uint all = 15u << uint(k), one = 1u << uint(k);
+    if ((visible & all) != 0u && high <= joinReach[int(clamp(64.0 * low, 0.0, 63.0))]) {
+        visible = (visible & ~all) | one;
+        joined |= one;
+    }
+}
+#endif
+
+/* What lies along segment k of those that are looked at together, and `count` - 1 more; `even`: its neighbours are
+ * as long. */
+void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in int count, const in float t, const in float span,
                          const in bool even, const in vec3 origin_eye, const in vec3 direction_eye) {
-    float from = values[k + 1], to = values[k + 2];
+    float from = values[k + 1], to = values[k + 1 + count];
 #if STYLED
     float seen = t + span * texture(places, vec2(from, to) * table_place.x + table_place.y).r;
 #endif
@@ -56,6 +88,12 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in float t
     bool falls = from > to;
     from -= falls ? down : up;
     to -= falls ? up : down;
+#if JOINS
+    if (count > 1) {
+        from = values[k + 1] - shifts[k >> 2];
+        to = values[k + 1 + count] - shifts[k >> 2];
+    }
+#endif
     vec4 mean = mean_between(from, to);
 #if HAS_WALL
     float way = way_to_wall(values[k + 1], values[k + 2]);

@@ -179,4 +179,24 @@ def bytes_and_floats():
     suite.check("something is seen", max(pictures[0]) > 0.2, max(pictures[0]))
 
 
+LINEAR = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 3 1 4 0 0x4080ff00 0xffc08020 } }"
+
+
+@suite.case
+def joined():
+    "four segments are one where the function is linear in their values, of one volume: nearly the same picture"
+    dice = random.Random(8)
+    data = voxels(1, (SIDE,) * 3, [dice.randrange(160, 200) if i // SIDE ** 2 > 6 else 3 for i in range(SIDE ** 3)])
+    one = volume(LINEAR, data=data)
+    beside = "Transform { translation 50 0 0 children %s }\n" % volume(LINEAR, data=data)
+    how = ("--step", 0.25, "--method", "preintegrated")
+    alone, told = draw((one,), *how)
+    suite.check("in segments", told["plan"]["method"] == "preintegrated" and told["plan"]["leaps"], told["plan"])
+    suite.check("something is seen", max(alone) > 0.1, max(alone))
+    suite.check("leaping changes no bit", alone == draw((one,), *how, "--no-leaping")[0])
+    apart = error(alone, draw((one, beside), *how)[0])[1]
+    suite.check("not the same", apart > 1e-5, apart)
+    suite.check("nearly", apart < 0.02 * 0.25 ** 2, apart)
+
+
 suite.run()
