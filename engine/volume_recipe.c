@@ -48,6 +48,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_GRADIENTS", segments && plr_volume_can_derive(state) ? "1" : "0"},
         {"HAS_QUADS", quads ? "1" : "0"},
         {"GENTLE", segments && state->table->gentle ? "1" : "0"},
+        {"CLIPS", segments && state->table->clips ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 enum {
+    LEAST_CLIPPED = 16, /* part of all values that is clear */
     FEWEST_NODES = 385,
     MOST_NODES = 1025,
     FEWEST_SUMS = 2049,
@@ -244,6 +245,7 @@ typedef struct bin {
     double slopes[SLOPES][2]; /* least and greatest */
     double extinction;
     double colors[3][2]; /* that are seen */
+    uint32_t looks[2];   /* from the first of these to the last */
 } bin;
 
 static void widen(double range[2], double value) {
@@ -354,6 +356,7 @@ static void join_ranges(double a[][2], const double b[][2], int count) {
 static void join(bin *a, const bin *b) {
     join_ranges(a->slopes, (const double(*)[2])b->slopes, SLOPES);
     join_ranges(a->colors, (const double(*)[2])b->colors, 3);
+    a->looks[1] = b->looks[1];
     a->extinction = fmax(a->extinction, b->extinction);
 }
 
@@ -371,16 +374,52 @@ static float seen_within(const plr_table *t, int low, int high) {
                    fmin(ceil(to / last * steps + 0.1), steps));
 }
 
+/* How much a channel of colour changes from the first look to each, forth and back, where it can be
+ * seen. */
+static void fill_turns(const float *texels, uint32_t count, uint32_t looks, double (*turns)[3]) {
+    double last[3] = {0, 0, 0}, now[4], next[4], all[3] = {0, 0, 0};
+    bool any = false;
+    at_value(texels, count, 0, now);
+    for (uint32_t i = 0; i < looks; i++) {
+        memcpy(turns[i], all, sizeof all);
+        if (i + 1 == looks)
+            break;
+        at_value(texels, count, (i + 1.0) / (looks - 1), next);
+        for (int k = 0; k < 3 && fmax(now[3], next[3]) > 0; k++) {
+            all[k] += (any ? fabs(now[k] - last[k]) : 0) + fabs(next[k] - now[k]);
+            last[k] = next[k];
+        }
+        any = any || fmax(now[3], next[3]) > 0;
+        memcpy(now, next, sizeof now);
+    }
+}
+
+/* The greatest change of colour and, behind the point, its part of all changes: PLR_TABLE_COLORS.
+ */
+static float change_of(const bin *b, const double (*turns)[3]) {
+    double change = 0, all = 0, parts = 4096;
+    for (int k = 0; k < 3 && b->extinction > 0; k++) {
+        change = fmax(change, b->colors[k][1] - b->colors[k][0]);
+        all = fmax(all, turns[b->looks[1]][k] - turns[b->looks[0]][k]);
+    }
+    double steps = ceil(change * PLR_TABLE_COLORS - 1e-6);
+    double part = all > 0 ? fmin(0.998 * steps / (PLR_TABLE_COLORS * all), 0.998) : 0.998;
+    return (float)(steps + floor(part * parts) / parts);
+}
+
 /* For all pairs of bins what holds in them and between them. What lies at the sides of a bin counts
  * in both it and its neighbours. Returns the greatest change of slope. */
-static double fill_ranges(const plr_table *t, const float *texels, uint32_t count, uint32_t looks,
-                          float *out) {
+static double fill_ranges(const plr_table *t, plr_arena *arena, const float *texels, uint32_t count,
+                          uint32_t looks, float *out) {
     bin bins[PLR_TABLE_RANGES];
-    double most = 0;
+    double most = 0, (*turns)[3] = plr_arena_array(arena, looks, sizeof *turns);
+    fill_turns(texels, count, looks, turns);
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
         bins[i] = empty_bin();
         double from = floor((double)i / PLR_TABLE_RANGES * (looks - 1) - 1e-3) - 1;
         double to = ceil((i + 1.0) / PLR_TABLE_RANGES * (looks - 1) + 1e-3);
+        bins[i].looks[0] = (uint32_t)fmax(from, 0);
+        bins[i].looks[1] = (uint32_t)fmin(to, looks - 2) + 1;
         for (double n = fmax(from, 0); n <= fmin(to, looks - 2); n++)
             add_look(&bins[i], texels, count, looks, (uint32_t)n);
     }
@@ -389,15 +428,13 @@ static double fill_ranges(const plr_table *t, const float *texels, uint32_t coun
         for (int j = i; j < PLR_TABLE_RANGES; j++) {
             join(&all, &bins[j]);
             float *at = out + (ptrdiff_t)4 * (j * PLR_TABLE_RANGES + i);
-            double change = 0, slope = 0;
-            for (int k = 0; k < 3 && all.extinction > 0; k++)
-                change = fmax(change, all.colors[k][1] - all.colors[k][0]);
+            double slope = 0;
             for (int n = 0; n < SLOPES; n++)
                 slope = fmax(slope, all.slopes[n][1] - all.slopes[n][0]);
             most = fmax(most, slope);
             at[0] = (float)slope;
             at[1] = (float)all.extinction;
-            at[2] = (float)change;
+            at[2] = change_of(&all, (const double(*)[3])turns);
             at[3] = seen_within(t, i, j);
         }
     }
@@ -506,9 +543,11 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     t->sum_nodes = t->nodes;
     t->sum_rows = PLR_NEW_ARRAY(arena, (size_t)16 * t->nodes, float);
     fill_sums(t, texels, count, wish->slack, t->sum_rows);
+    t->clips =
+        !(wish->error > 0) || t->visible[t->nodes - 1] < t->nodes - 1 - t->nodes / LEAST_CLIPPED;
     t->range_rows = PLR_NEW_ARRAY(arena, PLR_RANGE_FLOATS, float);
-    double slope =
-        fill_ranges(t, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS), t->range_rows);
+    double slope = fill_ranges(t, arena, texels, count, choose_nodes(count, FEWEST_SUMS, MOST_SUMS),
+                               t->range_rows);
     t->tame = slope <= MOST_SLOPE && is_whole(texels, count);
     set_nodes(t, arena, texels, count, choose_nodes(count, FEWEST_NODES, MOST_NODES));
     if (!wish->in_stack)

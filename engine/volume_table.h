@@ -15,6 +15,7 @@ typedef struct plr_table {
     uint32_t *visible;  /* of how many of the spans before a node anything can be seen */
     bool tame;          /* no steeper, and told apart no finer, than bounds hold for */
     bool gentle;        /* of sums: straight from node to node */
+    bool clips;         /* so much of it is clear that rays are clipped to what is not */
     int walls;          /* ranges of values that are opaque */
     float wall[2];      /* from the least to the greatest of these */
     float wall_colors[2][4];
@@ -34,6 +35,9 @@ typedef struct plr_table {
 /* From where to where something can be seen is told that finely, both in one number; the same in
  * GLSL. */
 #define PLR_TABLE_SEEN 4096
+
+/* Changes of colour are told that finely; the same in GLSL. */
+#define PLR_TABLE_COLORS 1000
 
 /* Optical depths per reference length are not greater: nothing shines through. */
 #define PLR_MOST_DEPTH 1e4

@@ -32,7 +32,7 @@ plr_table *plr_table_stack(plr_textures *textures, plr_arena *arena, plr_table *
                            uint32_t table_count, const uint32_t *numbers, uint32_t count) {
     plr_table *t = PLR_NEW(arena, plr_table);
     uint32_t width = count;
-    t->tame = t->gentle = true;
+    t->tame = t->gentle = t->clips = true;
     for (uint32_t i = 0; i < table_count; i++) {
         width = tables[i]->sum_nodes > width ? tables[i]->sum_nodes : width;
         t->tame = t->tame && tables[i]->tame;

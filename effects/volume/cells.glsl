@@ -6,16 +6,16 @@
  * linear from one node of the transfer function to the next, so that the integrals of extinction, -ln(1 - opacity),
  * and of colour times extinction have closed forms; those of gentle functions are lines there themselves. Where extinction is linear in the value nothing is lost. Else it errs by half the change of its slope times the integral of the
  * distance from the line, 0.257 l b / 8 for a parabola that bends by b over the part: 0.016 l b times the change
- * of slope. Colours are weighted by opacity within a part: what hides what is lost there, at most
- * opacity * change of colour * depth / 2. (Novins, Arvo 1992 have such bounds for other rules.)
+ * of slope. Colours are weighted by extinction within a part: what hides what is lost there (part_count in
+ * raycaster.frag.glsl). (Novins, Arvo 1992 have such bounds for other rules.)
  */
 
 uniform vec2 seenValues;  /* outside of this open interval values are clear */
 uniform sampler2D sums;   /* integrals of colour * extinction and of extinction up to each node of values; the
                              function there; opaque values below and above the span behind; what the
                              first lost by rounding */
-uniform sampler2D ranges; /* between two values: change of slope, extinction, change of colour; from where to where
-                             something can be seen */
+uniform sampler2D ranges; /* between two values: change of slope; extinction; change of colour, in PLR_TABLE_COLORS,
+                             and behind the point its part of all changes; from where to where something can be seen */
 #if HAS_LABELS
 /* Of both there is one for each function of the segments, sums one above the other, ranges in rows of RANGES_ACROSS.
  * The row above all sums has, for each segment number: the first row of its function, its last node, and outside of which
@@ -24,6 +24,7 @@ uniform sampler2D ranges; /* between two values: change of slope, extinction, ch
 
 
 const float SEEN_STEPS = 4096.0; /* of two numbers in one: PLR_TABLE_SEEN */
+const float COLORS = 1000.0; /* the same in C: PLR_TABLE_COLORS */
 const float RANGES = 64.0; /* the same in C: PLR_TABLE_RANGES */
 const float RANGES_ACROSS = 8.0; /* the same in C: PLR_RANGES_ACROSS */
 const float VALUE_UNIT = 1.0 / 8388608.0; /* values are not followed finer */
@@ -184,6 +185,7 @@ float value_in(const in float u) {
     return ((cubic[3] * u + cubic[2]) * u + cubic[1]) * u + cubic[0];
 }
 
+#if CLIPS
 /* Narrows a part of a piece, from x to y, to where its value may be within some: there the line between its ends is, but
  * for three quarters of what Bernstein's coefficients are off that line (clipping by a fat line: Sederberg,
  * Nishita 1990). */
@@ -200,6 +202,7 @@ void clip_piece(const in vec2 values, inout vec2 part) {
     ends = clamp(ends + vec2(-1.0e-5, 1.0e-5), 0.0, 1.0);
     part = ends.x < ends.y ? part.x + ends * size : part.xx;
 }
+#endif
 
 /* A node of the transfer function: colour and opacity, and with it what comes before. Beyond the outermost
  * nodes the function goes on as it is between the last two, so that means of lines are kept. */
@@ -349,13 +352,18 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
     /* Towards an opaque value extinction is the logarithm of the distance to it, and its slope one over that. */
     slopes = low < walls.z || high > walls.w ? 1.0 / max(apart, 1.0e-9) : 0.0;
 #endif
+    /* a part's line reaches farther than its values do: there the function counts, too */
+    vec2 reach = vec2(low, high) + vec2(-1.0, 1.0) / 12.0 * max(abs(2.0 * cubic[2]), abs(2.0 * cubic[2] + 6.0 * cubic[3]));
+#if HAS_WALL
+    reach = vec2(max(reach.x, walls.x), min(reach.y, walls.y));
+#endif
 #if HAS_LABELS
-    vec4 range = range_of(low, high);
+    vec4 range = range_of(reach.x, reach.y);
 #else
-    vec4 range = texture(ranges, clamp(vec2(low, high), 0.0, 1.0));
+    vec4 range = texture(ranges, clamp(reach, 0.0, 1.0));
 #endif
     vec2 part = vec2(0.0, 1.0);
-#if !MIXES
+#if CLIPS && !MIXES
     float first_seen = floor(range.w / SEEN_STEPS);
     vec2 seen = vec2(first_seen, range.w - first_seen * SEEN_STEPS) / (SEEN_STEPS - 1.0);
     /* values beyond 0 and 1 are those; and cubics round */
@@ -369,24 +377,23 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
     float bend = size * size * max(bends.x, bends.y);
     /* rays that come to what is opaque nearly at a tangent are as those beside them */
     slopes = min(slopes, 64.0 / max(bend, 1.0e-9));
-    /* a part's line reaches farther than its values do: there the function counts, too, if any is seen */
-    vec2 reach = vec2(low, high) + vec2(-bend, bend) / 12.0;
-#if HAS_WALL
-    reach = vec2(max(reach.x, walls.x), min(reach.y, walls.y));
-#endif
-#if HAS_LABELS
-    range.xyz = range.y > 0.0 ? range_of(reach.x, reach.y).xyz : vec3(0.0);
-#else
-    range.xyz = range.y > 0.0 ? texture(ranges, clamp(reach, 0.0, 1.0)).xyz : vec3(0.0);
-#endif
+    /* forth and back: no cubic turns more often than the coefficients that enclose it */
+    float passes = 1.0 + float((b1 - v0) * (b2 - b1) < 0.0) + float((b2 - b1) * (v3 - b2) < 0.0);
+    float change = floor(range.z) / COLORS, turns = passes * change / max(fract(range.z), 1.0e-6);
 #if MIXES
     /* colours of volumes in one place are as unlike as can be */
-    if (need.depth > 0.0 && range.y > 0.0)
-        need.change = 1.0;
+    if (need.depth > 0.0 && range.y > 0.0) {
+        change = 1.0;
+        turns = max(turns, 4.0);
+    }
+    need.change = max(need.change, change);
+    need.turns = max(need.turns, turns);
+#else
+    need.change = change;
+    need.turns = turns;
 #endif
     need.error += depth * (range.x + slopes) * bend * 0.016;
     need.depth += depth * range.y;
-    need.change = max(need.change, range.z);
     need.most = max(need.most, ceil(sqrt(bend / (8.0 * VALUE_UNIT))));
 }
 

@@ -103,7 +103,8 @@ def table(entries):
            invariant="all tables give the same picture")
 def function_texels(row):
     for name, options in row.methods():
-        first, *others = (row.picture("--step", "0.5", *options, scene=row.changed((table(2), table(n))))
+        fine = ("--error", "1/4096") if name == "cells" else ("--step", "0.5")
+        first, *others = (row.picture(*fine, *options, scene=row.changed((table(2), table(n))))
                           for n in (2, 4, 16, 52, 256))
         for p in others:
             row.measure("pictures differ by", worst(first, p), at_most=5e-5, case=name)
