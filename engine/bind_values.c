@@ -7,6 +7,7 @@
 #include "engine/light_values.h"
 #include "engine/projector.h"
 #include "engine/transfer_atlas.h"
+#include "engine/volume_blocks.h"
 #include "engine/volume_table.h"
 
 static plr_matrix model_view(const plr_known_context *c) {
@@ -186,14 +187,15 @@ static void v_wall_values(const plr_known_context *c, float *out) {
 static void v_wall_colors(const plr_known_context *c, float *out) {
     memcpy(out, c->volume->table->wall_colors, sizeof c->volume->table->wall_colors);
 }
+static void v_block_cells(const plr_known_context *c, float *out) {
+    out[0] = (float)c->volume->blocks->cells;
+}
 static void v_seen_values(const plr_known_context *c, float *out) {
     memcpy(out, c->volume->seen, sizeof c->volume->seen);
 }
-/* Errors of segments go with the square of their length: so may that of some that are joined. */
 static void v_join_reach(const plr_known_context *c, float *out) {
     const plr_volume_state *v = c->volume;
-    double voxels = v->step / v->voxel;
-    plr_table_reach(v->table, 4 * v->step / v->reference, 0.02 * voxels * voxels, out);
+    plr_table_reach(v->table, v->step / v->reference, v->step / v->voxel, out);
 }
 static void v_choice_number(const plr_known_context *c, float *out) {
     out[0] = (float)c->binding->number;
@@ -308,6 +310,7 @@ static const plr_known known[] = {
     {"transferPlace", OWNER_FUNCTION, v_transfer_place},
     {"wallValues", OWNER_VOLUME, v_wall_values},
     {"wallColors", OWNER_VOLUME, v_wall_colors},
+    {"blockCells", OWNER_VOLUME, v_block_cells},
     {"seenValues", OWNER_VOLUME, v_seen_values},
     {"joinReach", OWNER_VOLUME, v_join_reach},
     {"visibleValues", OWNER_FUNCTION, v_visible_values},

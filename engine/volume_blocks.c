@@ -4,6 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    FINE_CELLS = 2, /* rays come closer to what can be seen; 9 bytes a block, and they take time */
+    COARSE_CELLS = 4,
+    MOST_FINE = 1 << 21 /* voxels */
+};
+
 size_t plr_blocks_count(const plr_blocks *blocks) {
     return (size_t)blocks->size[0] * blocks->size[1] * blocks->size[2];
 }
@@ -11,10 +17,10 @@ size_t plr_blocks_count(const plr_blocks *blocks) {
 /* Puts the least and the greatest value of each run of voxels that a block reaches along one axis
  * in the place of the voxels: `count` values `stride` apart become `blocks` ones. */
 static void reduce_line(const float *from, size_t stride, uint32_t count, uint32_t blocks,
-                        bool greatest, float *out) {
+                        uint32_t cells, bool greatest, float *out) {
     for (uint32_t b = 0; b < blocks; b++) {
-        /* cells 4 b .. 4 b + 3 lie between voxels 4 b - 1 and 4 b + 3 */
-        uint32_t first = b * PLR_BLOCK_CELLS, last = first + PLR_BLOCK_CELLS - 1;
+        /* of 4: cells 4 b .. 4 b + 3 lie between voxels 4 b - 1 and 4 b + 3 */
+        uint32_t first = b * cells, last = first + cells - 1;
         first = first > 0 ? first - 1 : 0;
         last = last < count ? last : count - 1;
         float found = from[first * stride];
@@ -28,7 +34,8 @@ static void reduce_line(const float *from, size_t stride, uint32_t count, uint32
 }
 
 /* One end of the ranges: axis after axis, in place of a copy of the voxels. */
-static void reduce(const plr_image *image, const uint32_t size[3], bool greatest, float *values) {
+static void reduce(const plr_image *image, const uint32_t size[3], uint32_t cells, bool greatest,
+                   float *values) {
     const uint32_t count[3] = {image->width, image->height, image->depth};
     uint32_t now[3] = {count[0], count[1], count[2]};
     const size_t strides[3] = {1, count[0], (size_t)count[0] * count[1]};
@@ -45,7 +52,7 @@ static void reduce(const plr_image *image, const uint32_t size[3], bool greatest
                 for (uint32_t k = 0; k < count[axis]; k++)
                     line[k] = start[k * strides[axis]];
                 float *out = line + count[axis];
-                reduce_line(line, 1, count[axis], size[axis], greatest, out);
+                reduce_line(line, 1, count[axis], size[axis], cells, greatest, out);
                 for (uint32_t k = 0; k < size[axis] && k < count[axis]; k++)
                     start[k * strides[axis]] = out[k];
             }
@@ -69,8 +76,9 @@ static void fill_voxels(const plr_image *image, float *values) {
 plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image) {
     const uint32_t count[3] = {image->width, image->height, image->depth};
     plr_blocks *blocks = PLR_NEW(arena, plr_blocks);
+    blocks->cells = plr_image_level_samples(image, 0) <= MOST_FINE ? FINE_CELLS : COARSE_CELLS;
     for (int axis = 0; axis < 3; axis++) /* a side of one voxel has two cells, but one block */
-        blocks->size[axis] = (count[axis] + PLR_BLOCK_CELLS) / PLR_BLOCK_CELLS;
+        blocks->size[axis] = (count[axis] + blocks->cells) / blocks->cells;
     blocks->range = plr_arena_array(arena, plr_blocks_count(blocks), sizeof *blocks->range);
     /* sides of blocks may be one more than voxels, where there is one voxel: room for both */
     size_t room = plr_image_level_samples(image, 0);
@@ -79,7 +87,7 @@ plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image) {
         longjmp(*arena->out_of_memory, 1);
     for (int end = 0; end < 2; end++) {
         fill_voxels(image, values);
-        reduce(image, blocks->size, end == 1, values);
+        reduce(image, blocks->size, blocks->cells, end == 1, values);
         size_t at = 0;
         for (uint32_t z = 0; z < blocks->size[2]; z++)
             for (uint32_t y = 0; y < blocks->size[1]; y++)
@@ -97,25 +105,27 @@ static uint32_t label_at(const plr_image *image, size_t i) {
                                        : ((const uint32_t *)image->samples)[i];
 }
 
-/* One row of voxels, into a row of blocks: voxel i reaches blocks i / 4 to (i + 1) / 4. */
-static void add_row(const plr_image *image, size_t first, uint64_t *labels, uint32_t *most) {
+/* One row of voxels, into a row of blocks: of 4 cells, voxel i reaches i / 4 to (i + 1) / 4. */
+static void add_row(const plr_image *image, size_t first, uint32_t cells, uint64_t *labels,
+                    uint32_t *most) {
     for (uint32_t x = 0; x < image->width; x++) {
         uint32_t label = label_at(image, first + x);
         uint64_t bit = UINT64_C(1) << (label < PLR_BLOCK_LABELS ? label : PLR_BLOCK_LABELS);
         *most = label > *most ? label : *most;
-        labels[x / PLR_BLOCK_CELLS] |= bit;
-        labels[(x + 1) / PLR_BLOCK_CELLS] |= bit;
+        labels[x / cells] |= bit;
+        labels[(x + 1) / cells] |= bit;
     }
 }
 
 void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image *image) {
     const size_t width = blocks->size[0], height = blocks->size[1];
+    const uint32_t cells = blocks->cells;
     blocks->labels = PLR_NEW_ARRAY(arena, plr_blocks_count(blocks), uint64_t);
     for (uint32_t z = 0; z < image->depth; z++)
         for (uint32_t y = 0; y < image->height; y++)
-            for (size_t c = z / PLR_BLOCK_CELLS; c <= (z + 1) / PLR_BLOCK_CELLS; c++)
-                for (size_t b = y / PLR_BLOCK_CELLS; b <= (y + 1) / PLR_BLOCK_CELLS; b++)
-                    add_row(image, image->width * ((size_t)y + (size_t)image->height * z),
+            for (size_t c = z / cells; c <= (z + 1) / cells; c++)
+                for (size_t b = y / cells; b <= (y + 1) / cells; b++)
+                    add_row(image, image->width * ((size_t)y + (size_t)image->height * z), cells,
                             blocks->labels + width * (b + height * c), &blocks->most_label);
     for (size_t i = 0; i < plr_blocks_count(blocks); i++)
         blocks->all_labels |= blocks->labels[i];

@@ -6,11 +6,10 @@
 #include "base/arena.h"
 #include "engine/image.h"
 
-/* Cells a side of a block; the same in GLSL. Cell c lies between the centres of voxels c - 1 and c;
- * the outermost ones reach from a centre to the side of the box. */
-#define PLR_BLOCK_CELLS 4
-
+/* Cell c lies between the centres of voxels c - 1 and c; the outermost ones reach from a centre to
+ * the side of the box. */
 typedef struct plr_blocks {
+    uint32_t cells;    /* a side of a block */
     uint32_t size[3];  /* blocks along each axis */
     float (*range)[2]; /* of the values in a block, sides included; x runs fastest */
     uint64_t *labels;  /* which of PLR_BLOCK_LABELS are in a block, a bit each; or NULL */

@@ -46,9 +46,10 @@ static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end
         "skipping", "by distances between blocks",
         plr_arena_format(
             &view->arena,
-            "something can be seen in %.0f %% of %zu blocks of %d cells a side; pictures "
+            "something can be seen in %.0f %% of %zu blocks of %u cells a side; pictures "
             "stay the same to the bit",
-            all ? 100.0 * (double)full / (double)all : 0, all, PLR_BLOCK_CELLS)};
+            all ? 100.0 * (double)full / (double)all : 0, all,
+            view->volumes.volumes[cast->members[0]].blocks->cells)};
 }
 
 static plr_choice say_method(plr_view *view, const plr_plan *plan) {

@@ -38,6 +38,10 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
     /* of volumes together each has few textures; in general worlds values may get another range */
     bool quads = segments && !cells && cast->count == 1 && !state->general && state->grid->bytes &&
                  plr_volume_can_derive(state);
+    /* general programs are told by joinReach */
+    bool joins = segments && !cells && cast->count == 1 &&
+                 (state->general || plr_table_joins(state->table, state->step / state->reference,
+                                                    state->step / state->voxel));
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
@@ -47,6 +51,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
         {"HAS_GRADIENTS", segments && plr_volume_can_derive(state) ? "1" : "0"},
         {"HAS_QUADS", quads ? "1" : "0"},
+        {"JOINS", joins ? "1" : "0"},
         {"GENTLE", segments && state->table->gentle ? "1" : "0"},
         {"CLIPS", segments && state->table->clips ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};

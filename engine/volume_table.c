@@ -555,22 +555,50 @@ plr_table *plr_table_make(plr_textures *textures, plr_arena *arena, const float 
     return t;
 }
 
-void plr_table_reach(const plr_table *table, double length, double allowed,
-                     float reach[PLR_TABLE_RANGES]) {
+static void find_reach(const plr_table *table, double length, double voxels,
+                       float reach[PLR_TABLE_RANGES]) {
+    enum {
+        JOINED = 4 /* segments */
+    };
+    const double allowed = 0.02 * voxels * voxels;
     for (int i = 0; i < PLR_TABLE_RANGES; i++) {
         reach[i] = -1;
         for (int j = i; j < PLR_TABLE_RANGES; j++) {
             const float *at = table->range_rows + (ptrdiff_t)4 * (j * PLR_TABLE_RANGES + i);
             /* off the line by half of the range; what hides what by a twelfth of the square of the
              * depth, as far as colours differ (see cells.glsl) */
-            double off = (j - i + 1.0) / PLR_TABLE_RANGES / 2, depth = length * (double)at[1];
-            double error =
-                0.13 * (double)at[0] * off * length + depth * fmin(depth, 1) * (double)at[2] / 12;
+            double off = (j - i + 1.0) / PLR_TABLE_RANGES / 2;
+            double depth = JOINED * length * (double)at[1];
+            double error = 0.13 * (double)at[0] * off * JOINED * length +
+                           depth * fmin(depth, 1) * (double)at[2] / 12;
             if (error > allowed)
                 break;
             reach[i] = (float)(j + 1) / PLR_TABLE_RANGES;
         }
     }
+}
+
+bool plr_table_joins(const plr_table *table, double length, double voxels) {
+    float reach[PLR_TABLE_RANGES];
+    int far = 0, seen = 0;
+    if (table->walls > 0)
+        return false;
+    find_reach(table, length, voxels, reach);
+    for (int i = 0; i < PLR_TABLE_RANGES; i++)
+        if (table->range_rows[(ptrdiff_t)4 * (i * PLR_TABLE_RANGES + i) + 1] > 0) {
+            seen++;
+            far += reach[i] * PLR_TABLE_RANGES >= (float)(i + 2);
+        }
+    return 2 * far > seen;
+}
+
+void plr_table_reach(const plr_table *table, double length, double voxels,
+                     float reach[PLR_TABLE_RANGES]) {
+    if (plr_table_joins(table, length, voxels))
+        find_reach(table, length, voxels, reach);
+    else
+        for (int i = 0; i < PLR_TABLE_RANGES; i++)
+            reach[i] = -1;
 }
 
 bool plr_table_sees(const plr_table *table, double low, double high) {

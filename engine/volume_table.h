@@ -65,10 +65,12 @@ plr_image plr_table_image(plr_arena *arena, uint32_t width, uint32_t height);
 plr_texture *plr_table_numbers(plr_textures *textures, plr_image *image);
 /* The open interval outside of which nothing can be seen; its ends may be infinite. */
 void plr_table_seen(const plr_table *table, float seen[2]);
-/* For values in each bin of `ranges` how far up those of a part of a ray may reach, that it may be
- * taken as a line of their mean: its integral errs by no more than `allowed`. `length`: of the
- * part, in reference lengths. */
-void plr_table_reach(const plr_table *table, double length, double allowed,
+/* Whether four segments may often be taken as one. A segment is so long in reference lengths and in
+ * voxels; the integral errs by 0.02 times the square of the latter at most. */
+bool plr_table_joins(const plr_table *table, double length, double voxels);
+/* How far up, for values in each bin of `ranges`, those of four segments may reach that they may be
+ * a line of their mean; -1: nowhere, as in all bins if it is of little use. */
+void plr_table_reach(const plr_table *table, double length, double voxels,
                      float reach[PLR_TABLE_RANGES]);
 /* Whether anything can be seen of values within a range. */
 bool plr_table_sees(const plr_table *table, double low, double high);

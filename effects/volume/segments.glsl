@@ -1,12 +1,6 @@
 /* A volume with a table (table.glsl), cut into segments of equal length, of which four may be joined. A unit of
  * Volume.glsl's effect. */
 
-#if !MIXES && !STYLED && !HAS_WALL
-#define JOINS 1 /* nothing else happens at segments */
-#else
-#define JOINS 0
-#endif
-
 uniform vec2 seenValues; /* outside of this open interval values are clear */
 
 float values[11]; /* at the ends of the segments that are looked at together, CHUNK, and one step around */
@@ -49,7 +43,7 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
 }
 #endif
 
-#if JOINS
+#if JOINS && !STYLED
 /* Four segments are as good as one where the function is nearly linear in all their values: between the least
  * and this, by bins of the least. See plr_table_reach. */
 uniform float joinReach[64];
@@ -88,7 +82,7 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in int cou
     bool falls = from > to;
     from -= falls ? down : up;
     to -= falls ? up : down;
-#if JOINS
+#if JOINS && !STYLED
     if (count > 1) {
         from = values[k + 1] - shifts[k >> 2];
         to = values[k + 1 + count] - shifts[k >> 2];

@@ -316,19 +316,29 @@ static const plr_define in_cells[] = CUT("1", "1", "0", "0");
 static const plr_define two_in_cells[] = CUT("1", "1", "1", "1");
 #define TABLED "volume/Volume volume/grid volume/leaps volume/table "
 static const plr_define tabled[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"}, {"PROJECTS", "0"},
-    {"HAS_WALL", "0"},          {"HAS_QUADS", "0"},  {"CLIPS", "0"}};
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},   {"PROJECTS", "0"},
+    {"HAS_WALL", "0"},          {"JOINS", "1"},      {"HAS_QUADS", "0"}, {"CLIPS", "0"}};
 static const plr_define holding[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},    {"BRICKED", "0"},  {"PROJECTS", "0"},
-    {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}, {"HAS_QUADS", "1"}};
-static const plr_define walled[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},
-    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"},
-    {"HAS_QUADS", "0"},         {"CLIPS", "1"}};
-static const plr_define in_segmented[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "1"}, {"BRICKED", "0"},
-    {"PROJECTS", "0"},          {"GENTLE", "0"},     {"HAS_WALL", "1"},
-    {"HAS_QUADS", "0"},         {"CLIPS", "1"}};
+    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},    {"BRICKED", "0"}, {"PROJECTS", "0"},
+    {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}, {"JOINS", "1"},   {"HAS_QUADS", "1"}};
+static const plr_define walled[] = {{"voxels_COMPONENTS", "1"},
+                                    {"HAS_LABELS", "0"},
+                                    {"BRICKED", "0"},
+                                    {"PROJECTS", "0"},
+                                    {"GENTLE", "0"},
+                                    {"HAS_WALL", "1"},
+                                    {"JOINS", "0"},
+                                    {"HAS_QUADS", "0"},
+                                    {"CLIPS", "1"}};
+static const plr_define in_segmented[] = {{"voxels_COMPONENTS", "1"},
+                                          {"HAS_LABELS", "1"},
+                                          {"BRICKED", "0"},
+                                          {"PROJECTS", "0"},
+                                          {"GENTLE", "0"},
+                                          {"HAS_WALL", "1"},
+                                          {"JOINS", "0"},
+                                          {"HAS_QUADS", "0"},
+                                          {"CLIPS", "1"}};
 static const plr_define two_volumes[] = {
     {"MIXES", "1"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},
     {"EARLY_END", "0"}, {"HAS_CUT", "1"},    WHOLE_RAYS,         EVERY_STEP};
