@@ -569,8 +569,9 @@ static void find_reach(const plr_table *table, double length, double voxels,
              * depth, as far as colours differ (see cells.glsl) */
             double off = (j - i + 1.0) / PLR_TABLE_RANGES / 2;
             double depth = JOINED * length * (double)at[1];
-            double error = 0.13 * (double)at[0] * off * JOINED * length +
-                           depth * fmin(depth, 1) * (double)at[2] / 12;
+            double change = floor((double)at[2]) / PLR_TABLE_COLORS;
+            double error =
+                0.13 * (double)at[0] * off * JOINED * length + depth * fmin(depth, 1) * change / 12;
             if (error > allowed)
                 break;
             reach[i] = (float)(j + 1) / PLR_TABLE_RANGES;
