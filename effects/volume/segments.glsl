@@ -53,14 +53,17 @@ float shifts[2]; /* of the lines of those that are joined, k / 4 */
 void PLUG_volume_join(inout uint visible, inout uint joined, const in int k) {
     float from = values[k + 1], to = values[k + 5];
     vec3 inner = vec3(values[k + 2], values[k + 3], values[k + 4]);
-    float low = min(min(from, to), min(min(inner.x, inner.y), inner.z));
-    float high = max(max(from, to), max(max(inner.x, inner.y), inner.z));
     /* the line has the mean of all, to fourth order (Euler, Maclaurin) */
     float mean = 0.125 * (from + to) + 0.25 * (inner.x + inner.y + inner.z) -
                  (values[k] - inner.x - inner.z + values[k + 6]) / 96.0;
-    shifts[k >> 2] = 0.5 * (from + to) - mean;
+    float shift = 0.5 * (from + to) - mean;
+    shifts[k >> 2] = shift;
+    /* it may reach farther than the values do, but not beyond 0 and 1, where the function bends */
+    vec2 ends = vec2(min(from, to), max(from, to));
+    float low = min(min(ends.x, ends.x - shift), min(min(inner.x, inner.y), inner.z));
+    float high = max(max(ends.y, ends.y - shift), max(max(inner.x, inner.y), inner.z));
     uint all = 15u << uint(k), one = 1u << uint(k);
-    if ((visible & all) != 0u && high <= joinReach[int(clamp(64.0 * low, 0.0, 63.0))]) {
+    if ((visible & all) != 0u && low >= 0.0 && high <= joinReach[int(clamp(64.0 * low, 0.0, 63.0))]) {
         visible = (visible & ~all) | one;
         joined |= one;
     }

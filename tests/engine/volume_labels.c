@@ -201,6 +201,7 @@ static void check_cells(plr_arena *arena, const plr_image *labels, const char *n
     TAP_RESULT(wrong == 0, "%s: labels that cells have in common", name);
     plr_image_free(&cells);
     plr_blocks blocks = {
+        .cells = 4,
         .size = {(labels->width + 4) / 4, (labels->height + 4) / 4, (labels->depth + 4) / 4}};
     plr_blocks_add_labels(arena, &blocks, labels);
     size_t i = wrong = 0;
