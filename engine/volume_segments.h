@@ -9,7 +9,7 @@
 typedef struct plr_function {
     const plr_atlas_place *place; /* the transfer function; NULL: voxels as they are */
     double factor;                /* of its opacity */
-    bool bare; /* only what can be seen of it is wanted */
+    bool bare;                    /* only what can be seen of it is wanted */
 } plr_function;
 
 /* Makes the table of a SegmentedVolumeData whose segments are opacity maps and constant factors
