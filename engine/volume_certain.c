@@ -32,7 +32,7 @@ typedef struct curve {
     double varies[SCALES]; /* how much its slope varies at most over so many parts */
 } curve;
 
-/* What the function is on a span between two texels, with `at` in values. */
+/* Which function of a volume's values. */
 typedef struct place {
     const plr_certain *v;
     int channel; /* 3: extinction */
@@ -159,11 +159,11 @@ static speed speed_of(const plr_certain *v) {
 
 /* What is known of a volume for steps of some length. */
 typedef struct account {
-    double optical;     /* errors of optical depth, as far as they are seen */
-    double hidden;      /* the same where they change how much of what lies behind is seen */
-    double color;       /* of colours */
-    double least, most; /* extinction */
-    double colors[2];   /* least and greatest */
+    double optical;   /* errors of optical depth, as far as they are seen */
+    double hidden;    /* the same where they change how much of what lies behind is seen */
+    double color;     /* of colours */
+    double most;      /* extinction */
+    double colors[2]; /* least and greatest */
     double odd; /* of extinction: what a step's own change of transparency makes of its slope */
     double seen_length;
 } account;
@@ -187,7 +187,6 @@ static void add_optical(account *a, const curve *tau, const speed *s, double ste
     a->optical = vague ? whole * seen : rate * seen + jumps;
     a->hidden = vague ? whole * shadow : rate * shadow + jumps;
     a->seen_length = seen;
-    a->least = tau->low;
     a->most = tau->high;
     a->odd = fmin(tau->steepest * s->slope, CAPPED * whole / step);
 }
