@@ -78,13 +78,17 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in int cou
 #if STYLED
     float seen = t + span * texture(places, vec2(from, to) * table_place.x + table_place.y).r;
 #endif
-    /* the mean over the segment differs from that of its ends by a twelfth of the second difference; the
-     * line keeps between the ends: where nothing can be seen nothing is added */
-    float shift = even ? (values[k] - from - to + values[k + 3]) / 12.0 : 0.0;
-    float least = -abs(from - to), up = clamp(shift, least, 0.0), down = clamp(shift, 0.0, -least);
-    bool falls = from > to;
-    from -= falls ? down : up;
-    to -= falls ? up : down;
+    /* the mean over the segment differs from that of its ends by a twelfth of the second difference, of which this
+     * is the mean of both ends' */
+    float shift = even ? (values[k] - from - to + values[k + 3]) / 24.0 : 0.0;
+#if HAS_WALL
+    /* the line keeps on its side of what is opaque */
+    float low = min(from, to), high = max(from, to);
+    shift = high < wallValues.x ? max(shift, high - wallValues.x) : shift;
+    shift = low > wallValues.y ? min(shift, low - wallValues.y) : shift;
+#endif
+    from -= shift;
+    to -= shift;
 #if JOINS && !STYLED
     if (count > 1) {
         from = values[k + 1] - shifts[k >> 2];
