@@ -1,285 +1,304 @@
 /* Bounds for the midpoint rule along rays through trilinear values and a transfer function that is
  * linear from texel to texel.
  *
- * In a step of length h around the place of a sample m the value s differs from s(m) by at most S
- * |x|, S the greatest slope. A function f of the value with the slope f' is f(m) + f'(m) (s - m) +
- * r, where r is at most the integral, from s(m) to s, of how much f' varies on the way: R(|s -
- * s(m)|). Hence
+ * Let tau be extinction, c colour, B what is behind as seen from a place (premultiplied), T'
+ * transparency up to there as steps have it, and tau', c' what they have of the others. The
+ * derivative of T' B is T' (tau (B - c) - tau' B), and its integral minus the true colour; hence
  *
- *   |integral of f - h f(m)| <= L |integral of s - s(m)| + (2 / S) integral of R from 0 to S h / 2,
+ *   the error of colour = integral of T' ((tau' - tau) (c - B) + tau' (c' - c)),
  *
- * L the greatest |f'|. The integral of s - s(m) is at most h^3/24 times the second derivative
- * within cells, and h^2/8 times the jump of the slope at each face of a cell (Peano's kernel of the
- * midpoint rule). That holds for extinction, of which an error accumulates along the ray as far as
- * anything shines through, and for colours. Colours are weighted by what is seen of each place:
- * where that changes within a step, as extinction does and as the step hides itself, its odd part
- * counts, too. */
+ * which leaves nothing out. In a step of length h around the place of its sample m tau' and c' are
+ * tau(m) and c(m), and
+ *
+ *   d/dx T' (c - B) = T' ((tau - tau') (c - B) + dc/dx).
+ *
+ *   I. T' (c - B) at m times the integral of tau' - tau is the error of optical depth; the rest is
+ *      at most the integral of |tau' - tau| times that of the derivative, from m on;
+ *   II. T' tau' at m times the integral of c' - c is the error of colour; T' changes from m on by
+ *      T' tau' |x|, which makes no more of it than T' where the step begins times tau'^2 h^3/12
+ *      times the slope of c.
+ *
+ * Where volumes overlap tau is the sum of theirs; each has these terms, and the derivative has
+ * tau (mean c - c) more. Rates of these errors (engine/volume_rates.c) are summed over slabs of
+ * blocks, whichever way a ray goes. Where one is at most a + b tau' its integral along a ray, as
+ * seen, is at most that of a, and b: what is seen of all tau' is 1 at most. */
 #include "engine/volume_certain.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "engine/volume_rates.h"
 
 enum {
-    SCALES = 8,      /* into so many parts the way from m is cut */
-    MOST_BINS = 4096 /* of values */
+    MOST_VOLUMES = 8,
+    SHARES = 7 /* tries of b */
 };
 
-/* A function of the value: extinction, or a channel of colour. */
-typedef struct curve {
-    double steepest;       /* L */
-    double low, high;      /* of its values */
-    double part;           /* values, the length of a part */
-    double varies[SCALES]; /* how much its slope varies at most over so many parts */
-} curve;
-
-/* Which function of a volume's values. */
-typedef struct place {
-    const plr_certain *v;
-    int channel; /* 3: extinction */
-} place;
-
-static double texel(const plr_certain *v, uint32_t i, int channel) {
-    return (double)v->texels[4 * i + (uint32_t)channel];
-}
-
-static double channel_in(const plr_certain *v, uint32_t i, double value, int channel) {
-    double f = value * (v->texel_count - 1) - i;
-    f = fmin(fmax(f, 0), 1);
-    return (1 - f) * texel(v, i, channel) + f * texel(v, i + 1, channel);
-}
-
-/* The function and its slope, on the span behind texel i. Opacities are below 1. */
-static double value_in(place p, uint32_t i, double value, double *slope) {
-    double x = channel_in(p.v, i, value, p.channel);
-    double rise =
-        (texel(p.v, i + 1, p.channel) - texel(p.v, i, p.channel)) * (p.v->texel_count - 1);
-    if (p.channel < 3) {
-        *slope = rise;
-        return x;
-    }
-    *slope = rise / (1 - x) / p.v->reference;
-    return -log1p(-x) / p.v->reference;
-}
-
-static uint32_t span_of(const plr_certain *v, double value) {
-    double last = v->texel_count - 2.0;
-    return (uint32_t)fmin(fmax(floor(value * (v->texel_count - 1)), 0), last);
-}
-
-static void note(curve *c, double value, double slope) {
-    c->low = fmin(c->low, value);
-    c->high = fmax(c->high, value);
-    c->steepest = fmax(c->steepest, fabs(slope));
-}
-
-/* How much the slope varies in each bin of values; that at a texel counts in the bin in which it
- * lies. The slope is monotonous from texel to texel. */
-static void fill_bins(place p, curve *c, double *bins, size_t count) {
-    double low = p.v->bends->low, width = (p.v->bends->high - low) / (double)count, slope,
-           before = 0;
-    for (uint32_t i = span_of(p.v, low); i <= span_of(p.v, p.v->bends->high); i++) {
-        double from = fmax(low, (double)i / (p.v->texel_count - 1));
-        double to = fmin(p.v->bends->high, (i + 1.0) / (p.v->texel_count - 1));
-        note(c, value_in(p, i, from, &slope), slope);
-        size_t bin = (size_t)fmin(fmax(floor((from - low) / width), 0), (double)count - 1);
-        if (from > low)
-            bins[bin] += fabs(slope - before);
-        before = slope;
-        while (from < to) {
-            double end = bin + 1 < count ? fmin(to, low + width * (double)(bin + 1)) : to;
-            note(c, value_in(p, i, end, &slope), slope);
-            bins[bin] += fabs(slope - before);
-            before = slope;
-            bin += end < to;
-            from = fmax(end, nextafter(from, 2));
-        }
-    }
-}
-
-/* Values between the least and the greatest; a sample's differ by at most `reach` within its step.
- */
-static curve look(place p, double reach, double *bins) {
-    double low = p.v->bends->low, high = p.v->bends->high, slope;
-    curve c = {.low = INFINITY, .high = -INFINITY};
-    note(&c, value_in(p, span_of(p.v, low), low, &slope), 0);
-    if (!(high > low))
-        return c;
-    c.part = fmax(reach / SCALES, (high - low) / MOST_BINS);
-    size_t count = (size_t)ceil((high - low) / c.part);
-    memset(bins, 0, count * sizeof *bins);
-    fill_bins(p, &c, bins, count);
-    for (size_t n = 0; n < SCALES; n++) {
-        /* so many parts reach into one bin more */
-        double sum = 0;
-        for (size_t i = 0; i < count; i++) {
-            sum += bins[i];
-            sum -= i >= n + 2 ? bins[i - n - 2] : 0;
-            c.varies[n] = fmax(c.varies[n], sum);
-        }
-    }
-    return c;
-}
-
-/* 2 / S times the integral of R from 0 to S h / 2; values differ by no more than `reach`. */
-static double bend_of(const curve *c, double slope, double step, double reach) {
-    double x = 0, r = 0, sum = 0;
-    for (int n = 0; n < SCALES && x < reach; n++) {
-        double way = fmin(c->part, reach - x);
-        sum += way * (r + way * c->varies[n] / 2);
-        r += way * c->varies[n];
-        x += way;
-    }
-    sum += fmax(slope * step / 2 - x, 0) * r;
-    return slope > 0 ? 2 * sum / slope : 0;
-}
+#define EULER 2.718281828459045
 
 /* ---- Along rays ---- */
 
-/* How fast the value changes along any ray, per unit of length. */
-typedef struct speed {
-    double slope;  /* S */
-    double second; /* derivative, within cells */
-    double jumps;  /* of the slope, of all faces that a ray crosses */
-} speed;
+/* Where a block lies. */
+static size_t slab_of(const uint32_t blocks[3], int axis, size_t i) {
+    size_t across = axis == 0 ? 1 : axis == 1 ? blocks[0] : (size_t)blocks[0] * blocks[1];
+    return i / across % blocks[axis];
+}
+
+/* A ray with the direction d goes from side to side of a slab across axis k in |d_k|, and lies the
+ * longest way across that axis for which |d_k| / side of the volume is greatest: no longer in each
+ * slab than its part of the longest ray. Beyond the ends of a ray, which may be those of the
+ * volume, half a window counts, too. */
+static double part_of(const plr_rates *r, int axis, size_t slab) {
+    const plr_bends *b = r->v->bends;
+    size_t size = b->size[axis], first = slab * b->cells;
+    bool ends[2] = {slab == 0, slab + 1 == b->blocks[axis]};
+    double voxels = (double)(size - 1 - first < b->cells ? size - 1 - first : b->cells);
+    voxels += 0.5 * ends[0] + 0.5 * ends[1];
+    return r->v->longest * voxels / (double)size + r->window / 2 * (ends[0] + ends[1]);
+}
+
+enum {
+    MOST_SLABS = 2048 /* no axis has more blocks (engine/volume_bends.c) */
+};
+
+static void find_slabs(const plr_rates *r, const float *rate, const float *extinction, float share,
+                       float *slabs[3]) {
+    for (int axis = 0; axis < 3; axis++)
+        for (size_t k = 0; k < r->blocks[axis]; k++)
+            slabs[axis][k] = 0;
+    size_t i = 0;
+    for (size_t z = 0; z < r->blocks[2]; z++)
+        for (size_t y = 0; y < r->blocks[1]; y++) {
+            float most = 0;
+            for (size_t x = 0; x < r->blocks[0]; x++, i++) {
+                float left = rate[i] - share * extinction[i];
+                slabs[0][x] = left > slabs[0][x] ? left : slabs[0][x];
+                most = left > most ? left : most;
+            }
+            slabs[1][y] = most > slabs[1][y] ? most : slabs[1][y];
+            slabs[2][z] = most > slabs[2][z] ? most : slabs[2][z];
+        }
+}
+
+/* The integral of what is left of a rate without some share of extinction. */
+static double along(const plr_rates *r, const float *rate, const float *extinction, double share) {
+    if (r->count == 1)
+        return fmax((double)rate[0] - share * (double)extinction[0], 0) * r->v->longest;
+    float numbers[3][MOST_SLABS], *slabs[3] = {numbers[0], numbers[1], numbers[2]};
+    find_slabs(r, rate, extinction, (float)share, slabs);
+    double worst = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double sum = 0;
+        for (size_t k = 0; k < r->blocks[axis]; k++)
+            sum += (double)slabs[axis][k] * part_of(r, axis, k);
+        worst = fmax(worst, sum);
+    }
+    return worst;
+}
+
+/* At most a, and b of what is seen of extinction. */
+typedef struct integral {
+    double a, b;
+} integral;
+
+/* The least a + weight b. */
+static integral integrate(const plr_rates *r, const float *rate, const float *extinction,
+                          double weight) {
+    double share = 0;
+    for (size_t i = 0; i < r->count; i++)
+        if (extinction[i] > 0)
+            share = fmax(share, (double)rate[i] / (double)extinction[i]);
+    integral best = {along(r, rate, extinction, 0), 0};
+    for (int k = 0; k < SHARES && best.a > 0 && share > 0; k++, share /= 2) {
+        double a = along(r, rate, extinction, share);
+        if (a + weight * share < best.a + weight * best.b)
+            best = (integral){a, share};
+    }
+    return best;
+}
+
+/* ---- Faces of cells ---- */
+
+/* By how much the slope along a ray jumps in all, at most: the outermost voxels, beyond which
+ * values stay the same, and those within. A ray crosses each layer of voxels once at most, and the
+ * slope jumps there by |d| times the jump across. */
+typedef struct jumps {
+    double rim, all;
+} jumps;
 
 static double length_of(const double v[3]) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-static speed speed_of(const plr_certain *v) {
-    double slope[3], jump[3], twist[3];
-    for (int i = 0; i < 3; i++) {
-        slope[i] = v->bends->slope[i] / v->voxel[i];
-        jump[i] = v->bends->jump[i] / v->voxel[i];
-        twist[i] = v->bends->twist[i] / (v->voxel[(i + 1) % 3] * v->voxel[(i + 2) % 3]);
+static double across(const plr_rates *r, const float *steep, int axis, double *rim) {
+    const plr_bends *b = r->v->bends;
+    const float *slope = b->found[PLR_BEND_SLOPE + axis], *jump = b->found[PLR_BEND_JUMP + axis];
+    float most[MOST_SLABS], ends[2] = {0, 0};
+    size_t count = b->blocks[axis];
+    for (size_t k = 0; k < count; k++)
+        most[k] = 0;
+    for (size_t i = 0; i < plr_bends_count(b); i++) {
+        size_t k = slab_of(b->blocks, axis, i);
+        float times = steep[r->count > 1 ? i : 0], turn = times * jump[i];
+        most[k] = turn > most[k] ? turn : most[k];
+        ends[0] = k == 0 ? fmaxf(ends[0], times * slope[i]) : ends[0];
+        ends[1] = k + 1 == count ? fmaxf(ends[1], times * slope[i]) : ends[1];
     }
-    /* the norm of a symmetric matrix without a diagonal bounds what it makes of a direction */
-    return (speed){length_of(slope), sqrt(2) * length_of(twist), length_of(jump)};
+    double sum = 0;
+    for (size_t k = 0; k < count; k++) {
+        size_t first = k * b->cells, last = first + b->cells;
+        last = last + 1 < b->size[axis] ? last : b->size[axis] > 2 ? b->size[axis] - 2 : first;
+        sum += (double)most[k] * (double)(last > first ? last - first : 0);
+    }
+    *rim = ((double)ends[0] + (double)ends[1]) / r->v->voxel[axis];
+    return sum / r->v->voxel[axis] + *rim;
 }
 
-/* What is known of a volume for steps of some length. */
-typedef struct account {
-    double optical;   /* errors of optical depth, as far as they are seen */
-    double hidden;    /* the same where they change how much of what lies behind is seen */
-    double color;     /* of colours */
-    double most;      /* extinction */
-    double colors[2]; /* least and greatest */
-    double odd; /* of extinction: what a step's own change of transparency makes of its slope */
-    double seen_length;
-} account;
-
-/* So far drivers round values. */
-#define ROUNDED 1e-5
-/* What differs from the middle of a step by at most A |x| and a, and by at most B |x| and b: the
- * mean of the product is at most that of straight lines so many times a and b high at a step's
- * ends, or lower ones. */
-#define CAPPED 3.5
-
-static void add_optical(account *a, const curve *tau, const speed *s, double step, double reach,
-                        double longest) {
-    double seen = fmin(longest, 1 / fmax(tau->low, 1e-30));
-    double shadow = fmin(longest, 1 / (2.718281828 * fmax(tau->low, 1e-30)));
-    double rate = tau->steepest * (s->second * step * step / 24 + ROUNDED) +
-                  bend_of(tau, s->slope, step, reach) / step;
-    double jumps = tau->steepest * step * step / 8 * s->jumps, whole = tau->high - tau->low;
-    /* or else it is as wrong as it can be */
-    bool vague = rate * seen + jumps > whole * seen;
-    a->optical = vague ? whole * seen : rate * seen + jumps;
-    a->hidden = vague ? whole * shadow : rate * shadow + jumps;
-    a->seen_length = seen;
-    a->most = tau->high;
-    a->odd = fmin(tau->steepest * s->slope, CAPPED * whole / step);
+static jumps jumps_of(const plr_rates *r, const float *steep) {
+    double rim[3], all[3];
+    for (int axis = 0; axis < 3; axis++)
+        all[axis] = across(r, steep, axis, &rim[axis]);
+    double most = r->step * r->step / 8;
+    return (jumps){most * length_of(rim), most * length_of(all)};
 }
 
-/* `most`: extinction of all that may be in one place. */
-static void add_color(account *a, const curve *c, const speed *s, double step, double reach,
-                      double longest, double most) {
-    double whole = c->high - c->low, rise = fmin(c->steepest * s->slope, CAPPED * whole / step),
-           up = a->most;
-    double through = a->seen_length + step, depth = up * fmin(longest, through);
-    double even = (c->steepest * (s->second * step * step / 24 + ROUNDED) +
-                   bend_of(c, s->slope, step, reach) / step) *
-                  fmin(1, depth);
-    double jumps = c->steepest * step * step / 8 * s->jumps * up;
-    double odd =
-        rise * step * step / 12 * (a->odd * through + most * fmin(1 + most * step, up * through));
-    double blunt = fmin(c->steepest * reach, whole) * fmin(1, up * longest);
-    a->color = fmax(a->color, fmin(even + jumps + odd, blunt));
-    a->colors[0] = fmin(a->colors[0], c->low);
-    a->colors[1] = fmax(a->colors[1], c->high);
+/* Jumps within count by length or one by one. */
+static integral integrate_all(const plr_rates *r, const plr_rate *rate, const float *extinction,
+                              double weight) {
+    jumps j = jumps_of(r, rate->steep);
+    integral whole = integrate(r, rate->whole, extinction, weight);
+    integral even = integrate(r, rate->even, extinction, weight);
+    whole.a += j.rim;
+    even.a += j.all;
+    return whole.a + weight * whole.b < even.a + weight * even.b ? whole : even;
+}
+
+/* ---- All ---- */
+
+static double opacity_at(const plr_certain *v, double value) {
+    double at = fmin(fmax(value, 0), 1) * (v->texel_count - 1);
+    size_t i = (size_t)fmin(at, v->texel_count - 2.0);
+    double a = (double)v->texels[4 * i + 3], b = (double)v->texels[4 * i + 7];
+    return a + (at - (double)i) * (b - a);
 }
 
 /* Whether any value, or each, is opaque. */
 static bool is_opaque(const plr_certain *v, bool each) {
-    bool any = false, all = true;
-    uint32_t last = span_of(v, v->bends->high);
-    for (uint32_t i = span_of(v, v->bends->low); i <= last + 1; i++) {
-        any = any || texel(v, i, 3) >= 1;
-        all = all && texel(v, i, 3) >= 1;
+    double low = v->bends->low, high = v->bends->high;
+    bool first = opacity_at(v, low) >= 1, last = opacity_at(v, high) >= 1;
+    bool any = first || last, all = first && last;
+    for (uint32_t i = 0; i < v->texel_count; i++) {
+        double value = (double)i / (v->texel_count - 1);
+        bool opaque = (double)v->texels[4 * (size_t)i + 3] >= 1;
+        if (value <= low || value >= high)
+            continue;
+        any = any || opaque;
+        all = all && opaque;
     }
     return each ? all : any;
 }
 
-static bool find_account(const plr_certain *v, double step, double most, double *bins, account *a) {
-    speed s = speed_of(v);
-    double reach = fmin(s.slope * step / 2, v->bends->high - v->bends->low);
-    *a = (account){.colors = {INFINITY, -INFINITY}};
-    bool wall = is_opaque(v, true);
-    if (!wall) {
-        if (is_opaque(v, false))
-            return false;
-        curve tau = look((place){v, 3}, reach, bins);
-        add_optical(a, &tau, &s, step, reach, v->longest);
+/* A cast, for steps of some length. */
+typedef struct state {
+    plr_rates rates[MOST_VOLUMES];
+    bool walls[MOST_VOLUMES]; /* opaque for all values */
+    size_t count;
+    plr_rates_all all;
+    double steps; /* optical depth from the middle of a step to its end: how wrong */
+} state;
+
+static bool begin(state *s, const plr_certain *volumes, size_t count, const double *steps) {
+    for (int k = 0; k < PLR_CHANNELS; k++) {
+        s->all.low[k] = INFINITY;
+        s->all.high[k] = 0;
     }
-    for (int channel = 0; channel < 3; channel++) {
-        curve c = look((place){v, channel}, reach, bins);
-        if (!wall) {
-            add_color(a, &c, &s, step, reach, v->longest, most);
-            continue;
+    s->all.many = count > 1;
+    for (size_t i = 0; i < count; i++) {
+        const plr_certain *v = &volumes[i];
+        plr_rates *r = &s->rates[s->count++];
+        /* beyond, values are cut off, which bends them */
+        bool known = v->bends->low >= 0 && v->bends->high <= 1;
+        s->walls[i] = known && is_opaque(v, true);
+        *r = (plr_rates){0};
+        if (!known || (!s->walls[i] && is_opaque(v, false)) || !plr_rates_begin(r, v, steps[i]))
+            return false;
+        for (int k = 0; k < PLR_CHANNELS; k++) {
+            plr_curve_part c = plr_curve_between(r->curves[k], v->bends->low, v->bends->high);
+            s->all.low[k] = fmin(s->all.low[k], c.low);
+            s->all.high[k] = fmax(s->all.high[k], c.high);
         }
-        /* the first sample is all that is seen */
-        a->color = fmax(a->color, fmin(c.steepest * reach, c.high - c.low));
-        a->colors[0] = fmin(a->colors[0], c.low);
-        a->colors[1] = fmax(a->colors[1], c.high);
+        if (s->walls[i])
+            continue;
+        const plr_curve *tau = r->curves[PLR_CHANNELS];
+        s->all.most += plr_curve_between(tau, v->bends->low, v->bends->high).high;
+        s->all.strays += r->strays;
+        s->steps += r->strays * steps[i] / 2;
     }
     return true;
 }
 
-/* The greatest extinction of a volume, if it is not opaque. */
-static double densest(const plr_certain *v) {
-    double most = 0;
-    uint32_t last = span_of(v, v->bends->high);
-    for (uint32_t i = span_of(v, v->bends->low); i <= last + 1; i++)
-        if (texel(v, i, 3) < 1)
-            most = fmax(most, -log1p(-texel(v, i, 3)) / v->reference);
-    return most;
+/* Of a wall the first sample is all that is seen. */
+static double wall_of(const plr_rates *r, int channel) {
+    double worst = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        const plr_rates_block *b = &r->known[i];
+        plr_curve_part c = plr_curve_between(r->curves[channel], b->low, b->high);
+        worst = fmax(worst, fmin(c.steepest * b->slope * r->step / 2, c.high - c.low));
+    }
+    return worst;
+}
+
+/* T' in the middle of a step, and where it begins, times tau' sums up to so many times 1. */
+static double seen_from(const state *s, const plr_rates *r, bool middle) {
+    double depth = s->all.most * r->step;
+    if (s->all.many)
+        return exp(middle ? depth / 2 : depth);
+    return middle ? 1 : 1 + depth; /* x / (1 - exp(-x)) is below */
+}
+
+static double error_of(state *s) {
+    integral optical = {0, 0};
+    double share = 0, rest[PLR_CHANNELS] = {0, 0, 0}, worst;
+    for (size_t i = 0; i < s->count; i++) {
+        plr_rates *r = &s->rates[i];
+        for (int k = 0; s->walls[i] && k < PLR_CHANNELS; k++)
+            rest[k] += wall_of(r, k);
+        if (s->walls[i])
+            continue;
+        plr_rates_fill(r, &s->all);
+        double middle = seen_from(s, r, true), start = seen_from(s, r, false);
+        integral o = integrate_all(r, &r->optical, r->least, middle);
+        optical.a += o.a;
+        optical.b += middle * o.b;
+        share = fmax(share, o.b);
+        for (int k = 0; k < PLR_CHANNELS; k++) {
+            integral odd = integrate(r, r->odd[k], r->least, start);
+            integral c = {0, 0};
+            if (s->all.high[k] > s->all.low[k])
+                c = integrate_all(r, &r->colors[k], r->most, start);
+            rest[k] += odd.a + start * odd.b + c.a + start * c.b;
+        }
+    }
+    /* Optical depths x, and x' as steps have it, differ by a + b x' at most, so transparency by
+     * exp(a - (1 - b) x') (a + b x'), and x' exp(-(1 - b) x') is below 1 / (e (1 - b)). */
+    double hidden = share < 1 ? exp(optical.a) * (optical.a + share / (EULER * (1 - share))) : 1;
+    double through = share < 1 ? exp(s->steps) * hidden : INFINITY, seen = optical.a + optical.b;
+    worst = fmin(hidden, seen);
+    /* |c - B| is at most `high`; or else, t what shines through all behind, at most half of the
+     * range of colours times 2 - t, and their middle times t */
+    for (int k = 0; k < PLR_CHANNELS; k++) {
+        double middle = (s->all.low[k] + s->all.high[k]) / 2, wide = s->all.high[k] - s->all.low[k];
+        double mixed = middle * through + wide * seen;
+        worst = fmax(worst, fmin(mixed, s->all.high[k] * seen) + rest[k]);
+    }
+    return worst;
 }
 
 double plr_certain_error(const plr_certain *volumes, size_t count, const double *steps) {
-    double bins[MOST_BINS + 1];
-    double most = 0, optical = 0, hidden = 0, color = 0, mixing = 0,
-           colors[2] = {INFINITY, -INFINITY};
-    for (size_t i = 0; i < count; i++)
-        most += densest(&volumes[i]);
-    for (size_t i = 0; i < count; i++) {
-        const plr_certain *v = &volumes[i];
-        account a;
-        /* beyond, values are cut off, which bends them */
-        if (!(v->bends->low >= 0 && v->bends->high <= 1) ||
-            !find_account(v, steps[i], most, bins, &a))
-            return INFINITY;
-        optical += a.optical;
-        hidden += a.hidden;
-        color += a.color;
-        /* of several in one place each is seen through all */
-        mixing +=
-            count > 1 ? a.odd * most * steps[i] * steps[i] / 12 * (a.seen_length + steps[i]) : 0;
-        colors[0] = fmin(colors[0], a.colors[0]);
-        colors[1] = fmax(colors[1], a.colors[1]);
-    }
-    double seen = (colors[0] + colors[1]) / 2 * hidden +
-                  (colors[1] - colors[0]) * (optical + mixing / 2) + color;
-    double error = fmax(hidden, seen);
-    /* terms of the second order of these */
-    return error < 0.1 ? error * exp(2 * (optical + mixing)) : INFINITY;
+    if (count > MOST_VOLUMES)
+        return INFINITY;
+    state s = {.count = 0};
+    double error = begin(&s, volumes, count, steps) ? error_of(&s) : INFINITY;
+    for (size_t i = 0; i < s.count; i++)
+        plr_rates_finish(&s.rates[i]);
+    return error;
 }

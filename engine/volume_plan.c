@@ -220,13 +220,15 @@ static bool are_tame(const plr_view *view, const plr_cast *cast) {
 
 enum {
     MOST_CERTAIN = 8, /* volumes */
-    HALVINGS = 9      /* of the range of steps, as a ratio */
+    MOST_TRIES = 8
 };
 
 /* Of the error a part is for where rays end early, and for rounding. */
 #define CERTAIN_PART 0.8
 /* Cells cost less than such steps, in voxels. */
 #define LEAST_CERTAIN 0.125
+/* Steps so many times as long are worth a try. */
+#define WORTH 1.06
 
 static bool describe(const plr_volume_state *state, plr_certain *v) {
     if (!state->table || !state->table->tame || state->styled || state->general || !state->bends ||
@@ -258,16 +260,22 @@ static double find_certain(plr_view *view, const plr_cast *cast, double error) {
             return 0;
         whole = fmax(whole, 1.01 * volumes[i].longest / state->voxel);
     }
-    double low = 0, high = whole, length = whole;
-    for (int i = 0; i < HALVINGS; i++) {
+    double allowed = CERTAIN_PART * error, low = 0, high = whole, length = whole;
+    for (int i = 0; i < MOST_TRIES; i++) {
         for (size_t k = 0; k < cast->count; k++)
             steps[k] = length * view->volumes.volumes[cast->members[k]].voxel;
-        bool enough = plr_certain_error(volumes, cast->count, steps) <= CERTAIN_PART * error;
-        low = enough ? length : low;
-        high = enough ? high : length;
+        double found = plr_certain_error(volumes, cast->count, steps);
+        low = found <= allowed ? length : low;
+        high = found <= allowed ? high : length;
         if (low >= whole || (!(low > 0) && length <= LEAST_CERTAIN))
             break;
-        length = low > 0 ? sqrt(low * high) : LEAST_CERTAIN;
+        /* errors grow with the square of steps, or faster */
+        double guess = 0.99 * length * sqrt(allowed / found);
+        length = !(low > 0)                                 ? LEAST_CERTAIN
+                 : found > 0 && guess > low && guess < high ? guess
+                                                            : sqrt(low * high);
+        if (low > 0 && (length < WORTH * low || (high < whole && high < WORTH * low)))
+            break;
     }
     return low;
 }
