@@ -37,6 +37,9 @@ const int MOST_EVENTS = 4096; /* in one step */
 const int CHUNK = 8; /* segments or cells that are looked at together; the same in segments.glsl and cells.glsl */
 #if PLUG_USED(volume_join)
 const int JOINED = 4; /* so many are taken together where that is as good; they begin at multiples of it */
+const int BEHIND = JOINED;
+#else
+const int BEHIND = 3; /* where values from before are not known, segments of a chunk that do without them come last */
 #endif
 #endif
 #if CELLS
@@ -395,7 +398,7 @@ void main() {
 #else
         int steps = step_count(t_next - t, step_length);
 #endif
-        int i = 0;
+        int i = 0, behind = BEHIND;
 #if LEAPS
         while (i < steps) {
             float at = t + float(i) * step_length;
@@ -411,22 +414,21 @@ void main() {
 #endif
         while (i < steps && !ended) {
             /* most segments cannot be seen: that is found out first for some, at the least cost */
-            int first = i;
+            int first = i - behind;
             uint visible = 0u;
-            /* as it is where chunks begin elsewhere: leaping changes no bit */
-            float before = t + float(i - 1) * step_length;
-            float from = t + float(i) * step_length;
-            /* PLUG: volume_chunk_begin (before, from) */
-            for (int k = 0; k < CHUNK; k++) {
-                float to = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
-                i++;
-                /* PLUG: volume_chunk (visible, k, to) */
+            /* PLUG: volume_chunk_begin (visible) */
+            /* in two halves: a longer loop would not be unrolled, and places in arrays not be known */
+            for (int k = 0; k < CHUNK / 2; k++) {
+                float at = first + k + 2 < steps ? t + float(first + k + 2) * step_length : t_next;
+                /* PLUG: volume_chunk (visible, k, at) */
             }
-            float beyond = i + 1 < steps ? t + float(i + 1) * step_length : t_next;
-            /* PLUG: volume_chunk_end (beyond) */
-            int left = steps - first;
-            if (left < CHUNK)
-                visible &= (1u << uint(left)) - 1u;
+            for (int k = CHUNK / 2; k < CHUNK; k++) {
+                float at = first + k + 2 < steps ? t + float(first + k + 2) * step_length : t_next;
+                /* PLUG: volume_chunk (visible, k, at) */
+            }
+            visible &= (1u << uint(min(steps - first, CHUNK))) - (1u << uint(behind));
+            i = first + CHUNK;
+            behind = 0;
 #if PLUG_USED(volume_join)
             uint joined = 0u; /* begin here, and are as good as one */
             for (int k = 0; k < CHUNK; k += JOINED)
@@ -485,6 +487,7 @@ void main() {
 #endif
                 if (leap == 0)
                     break;
+                behind = BEHIND;
                 i += leap;
             }
 #endif

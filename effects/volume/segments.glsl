@@ -5,27 +5,26 @@ uniform vec2 seenValues; /* outside of this open interval values are clear */
 
 float values[11]; /* at the ends of the segments that are looked at together, CHUNK, and one step around */
 
-/* Segments that are looked at together begin here, those before them end `before`. */
-void PLUG_volume_chunk_begin(const in float before, const in float t) {
-    values[0] = value_at(before);
-    values[1] = value_at(t);
+bool is_between_seen(const in float from, const in float to) {
+    return max(from, to) > seenValues.x && min(from, to) < seenValues.y;
 }
 
-void PLUG_volume_chunk_end(const in float t) {
-    values[10] = value_at(t);
+/* Where segments are looked at together behind others some values are known. */
+void PLUG_volume_chunk_begin(inout uint visible) {
+    for (int k = 0; k < 3; k++)
+        values[k] = values[k + 8];
+    visible |= uint(is_between_seen(values[1], values[2]));
 }
 
 #if STYLED
 uniform sampler2D places; /* between two values: at which part of the way lies the mean of what can be seen */
 #endif
 
-/* Whether anything can be seen of segment k of those, which ends here: not if the transfer function is
+/* The end of the segment behind segment k, and whether anything can be seen of it: not if the transfer function is
  * clear at all values between its ends. */
 void PLUG_volume_chunk(inout uint visible, const in int k, const in float t) {
-    float value = value_at(t);
-    values[k + 2] = value;
-    if (max(value, values[k + 1]) > seenValues.x && min(value, values[k + 1]) < seenValues.y)
-        visible |= 1u << uint(k);
+    values[k + 3] = value_at(t);
+    visible |= uint(is_between_seen(values[k + 2], values[k + 3])) << uint(k + 1);
 }
 
 #if LEAPS
@@ -70,17 +69,33 @@ void PLUG_volume_join(inout uint visible, inout uint joined, const in int k) {
 }
 #endif
 
+/* The values at the ends of segment k, and one step around. By halves: where a place in an array is not known, pixels
+ * read and write it one by one. */
+vec4 values_around(const in int k) {
+    float a[7], b[5];
+    vec4 c;
+    bool far = (k & 4) != 0, two = (k & 2) != 0, one = (k & 1) != 0;
+    for (int n = 0; n < 7; n++)
+        a[n] = far ? values[n + 4] : values[n];
+    for (int n = 0; n < 5; n++)
+        b[n] = two ? a[n + 2] : a[n];
+    for (int n = 0; n < 4; n++)
+        c[n] = one ? b[n + 1] : b[n];
+    return c;
+}
+
 /* What lies along segment k of those that are looked at together, and `count` - 1 more; `even`: its neighbours are
  * as long. */
 void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in int count, const in float t, const in float span,
                          const in bool even, const in vec3 origin_eye, const in vec3 direction_eye) {
-    float from = values[k + 1], to = values[k + 1 + count];
+    vec4 around = values_around(k);
+    float from = around.y, to = around.z;
 #if STYLED
     float seen = t + span * texture(places, vec2(from, to) * table_place.x + table_place.y).r;
 #endif
     /* the mean over the segment differs from that of its ends by a twelfth of the second difference, of which this
      * is the mean of both ends' */
-    float shift = even ? (values[k] - from - to + values[k + 3]) / 24.0 : 0.0;
+    float shift = even ? (around.x - from - to + around.w) / 24.0 : 0.0;
 #if HAS_WALL
     /* the line keeps on its side of what is opaque */
     float low = min(from, to), high = max(from, to);
@@ -91,17 +106,18 @@ void PLUG_volume_segment(inout VolumeMix mixed, const in int k, const in int cou
     to -= shift;
 #if JOINS && !STYLED
     if (count > 1) {
-        from = values[k + 1] - shifts[k >> 2];
-        to = values[k + 1 + count] - shifts[k >> 2];
+        float joined_shift = k < 4 ? shifts[0] : shifts[1];
+        from = around.y - joined_shift;
+        to = (k < 4 ? values[5] : values[9]) - joined_shift;
     }
 #endif
     vec4 mean = mean_between(from, to);
 #if HAS_WALL
-    float way = way_to_wall(values[k + 1], values[k + 2]);
+    float way = way_to_wall(around.y, around.z);
     if (is_inside(t) && way <= 1.0) {
-        vec4 color = vec4(wall_color(values[k + 1]).rgb, 1.0);
-        if (is_within_wall(values[k + 1])) {
-            vec4 there = mean_between(values[k + 1], values[k + 1]);
+        vec4 color = vec4(wall_color(around.y).rgb, 1.0);
+        if (is_within_wall(around.y)) {
+            vec4 there = mean_between(around.y, around.y);
             color.rgb = there.rgb / there.a;
         }
 #if STYLED
