@@ -27,7 +27,9 @@ bool plr_volume_can_derive(const plr_volume_state *state);
 void plr_cast_derive(plr_view *view, plr_cast *cast);
 /* Whether voxels are bytes, whatever they are held as. */
 bool plr_volume_has_bytes(const plr_image *voxels);
-/* Bytes of one component, four a texel: (i, j, k), (i + 1, j, k), (i, j + 1, k), (i + 1, j + 1, k)
+/* Whether a texture may have its voxels four a texel. */
+bool plr_volume_has_quads(const plr_volume_state *state);
+/* Voxels of one component, four a texel: (i, j, k), (i + 1, j, k), (i, j + 1, k), (i + 1, j + 1, k)
  * for the texel (i, j, k). False: no memory. */
 bool plr_volume_fill_quads(const plr_image *voxels, plr_image *out);
 

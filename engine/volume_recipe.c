@@ -35,9 +35,9 @@ static const char leaping_units[] = "volume/Volume volume/grid volume/leaps volu
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                                 const plr_cast *cast) {
     bool segments = is_segmented(cast), cells = cast->plan.method == PLR_METHOD_CELLS;
-    /* of volumes together each has few textures; in general worlds values may get another range */
-    bool quads = segments && !cells && cast->count == 1 && !state->general && state->grid->bytes &&
-                 plr_volume_can_derive(state);
+    /* segments take less time to read bytes so, but not floats */
+    bool quads = segments && plr_volume_has_quads(state) &&
+                 (cells || (cast->count == 1 && state->grid->bytes));
     /* general programs are told by joinReach */
     bool joins = segments && !cells && cast->count == 1 &&
                  (state->general || plr_table_joins(state->table, state->step / state->reference,

@@ -20,12 +20,12 @@ void volume_mix_add(inout VolumeMix mixed, const in vec4 color, const in float l
 /* What an optical depth hides: 1 - exp(-depth). That loses its digits where little is hidden, as in
  * many short steps: there the series. */
 float opacity_of_depth(const in float depth) {
-    float few = depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0)));
+    float few = depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0))));
     return depth < 0.02 ? few : 1.0 - exp(-depth);
 }
 
 /* Straight colour and the opacity of the step. */
 vec4 volume_mix_color(const in VolumeMix mixed) {
-    vec4 color = vec4(mixed.sum.rgb / mixed.sum.a, mixed.opaque ? 1.0 : opacity_of_depth(mixed.sum.a));
+    vec4 color = vec4(mixed.sum.rgb * (1.0 / max(mixed.sum.a, 1.0e-37)), mixed.opaque ? 1.0 : opacity_of_depth(mixed.sum.a));
     return mixed.sum.a > 0.0 ? color : vec4(0.0);
 }

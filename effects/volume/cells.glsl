@@ -31,10 +31,14 @@ const float VALUE_UNIT = 1.0 / 8388608.0; /* values are not followed finer */
 
 vec3 next_face;  /* along each axis, in cells */
 vec3 face_step;  /* to the one behind it */
-float cell_values[9]; /* at the ends of the cells that are looked at together, CHUNK, */
-float first_values[8]; /* and at a third and at two thirds of each */
-float second_values[8];
-float cubic[4];       /* the value over one of them, from 0 to 1 */
+vec4 cubics[8];  /* the values over the cells that are looked at together, CHUNK: coefficients, each from 0 to 1 */
+vec4 cubic;      /* over one of them */
+#if !HAS_LABELS
+float node_size; /* of `sums`, as texture coordinates have it */
+#endif
+#if !HAS_QUADS
+float value_before; /* where the cell before ends */
+#endif
 #if HAS_LABELS
 vec4 cell_functions[8]; /* in each of them, as they stand in `sums`; or NOT_SEEN */
 vec4 function_here;
@@ -122,8 +126,13 @@ vec4 range_of(const in float low, const in float high) {
 
 /* Cells that are looked at together begin. */
 void PLUG_volume_cells_begin(const in float t) {
+#if !HAS_LABELS
+    node_size = 1.0 / float(textureSize(sums, 0).x);
+#endif
     find_faces(t);
-    cell_values[0] = value_at(t);
+#if !HAS_QUADS
+    value_before = value_at(t);
+#endif
 }
 
 /* How far the ray stays in the cell that it is in. */
@@ -137,45 +146,68 @@ void PLUG_volume_cell(const in float t, inout float end) {
     end = is_inside(t) ? max(min(end, to_face), t) : end;
 }
 
+#if HAS_QUADS
+/* The value along the piece of a cell from t to `end`, from 0 to 1: trilinear between the cell's corners. */
+vec4 cubic_between(const in float t, const in float end, out bool zero) {
+    vec3 last = vec3(textureSize(voxelQuads, 0)) - 1.0;
+    vec3 first = clamp(floor(next_face - 0.5 * face_step) - 1.0, vec3(0.0), last);
+    vec3 texel = (first + 0.5) * texel_size;
+    vec4 front = texture(voxelQuads, texel), back = texture(voxelQuads, vec3(texel.xy, texel.z + texel_size.z));
+    vec3 from = clamp(cell_origin + t * cell_direction - 1.0 - first, 0.0, 1.0);
+    vec3 way = clamp(cell_origin + end * cell_direction - 1.0 - first, 0.0, 1.0) - from;
+    /* of differences: what is even stays so */
+    vec4 along_z = back - front, low = front + along_z * from.z;
+    along_z *= way.z;
+    vec2 along_x = low.yw - low.xz, twist = along_z.yw - along_z.xz;
+    vec2 p = low.xz + along_x * from.x, q = along_z.xz + twist * from.x + along_x * way.x, r = twist * way.x;
+    vec3 along_y = vec3(p.y - p.x, q.y - q.x, r.y - r.x);
+    vec4 found = vec4(vec3(p.x, q.x, r.x) + along_y * from.y, 0.0) + vec4(0.0, along_y * way.y);
+    zero = all(equal(found, vec4(0.0)));
+    return found;
+}
+#else
+/* The same from four samples. */
+vec4 cubic_between(const in float t, const in float end, out bool zero) {
+    float span = end - t, v0 = value_before;
+    float v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
+    value_before = v3;
+    /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
+     * rounded to those behind */
+    zero = v1 == 0.0 && v2 == 0.0;
+    float d1 = v1 - v0, d2 = v2 - v1, d3 = v3 - v2;
+    return vec4(v0, 0.5 * (11.0 * d1 - 7.0 * d2 + 2.0 * d3), 4.5 * (3.0 * d2 - 2.0 * d1 - d3),
+                4.5 * (d1 - 2.0 * d2 + d3));
+}
+#endif
+
 /* Looks at cell k: whether anything can be seen there. */
 void PLUG_volume_cell_look(inout uint visible, const in int k, const in float t, const in float end) {
-    float span = end - t;
-    float v0 = cell_values[k], v1 = value_at(t + span / 3.0), v2 = value_at(t + span * (2.0 / 3.0)), v3 = value_at(end);
+    bool zero;
+    vec4 c = cubic_between(t, end, zero);
     next_face += face_step * vec3(lessThanEqual((next_face - cell_origin) * cell_inverse, vec3(end)));
-    first_values[k] = v1;
-    second_values[k] = v2;
-    cell_values[k + 1] = v3;
+    cubics[k] = c;
     /* Bernstein's coefficients enclose the cubic */
-    float d1 = v1 - v0, d2 = v2 - v1, d3 = v3 - v2;
-    float b1 = v0 + (11.0 * d1 - 7.0 * d2 + 2.0 * d3) / 6.0, b2 = v3 - (11.0 * d3 - 7.0 * d2 + 2.0 * d1) / 6.0;
-    bool seen = max(max(v0, v3), max(b1, b2)) > seenValues.x && min(min(v0, v3), min(b1, b2)) < seenValues.y;
+    float b1 = c.x + c.y * (1.0 / 3.0), b2 = b1 + (c.y + c.z) * (1.0 / 3.0), v3 = c.x + (c.y + (c.z + c.w));
+    float low = min(min(c.x, v3), min(b1, b2)), high = max(max(c.x, v3), max(b1, b2));
+    bool seen = high > seenValues.x && low < seenValues.y;
+    /* so that cells are clear here where a leap would pass over them */
 #if HAS_LABELS
     vec4 function = NOT_SEEN;
     if (seen)
         function = function_of(piece_label);
-    seen = max(max(v0, v3), max(b1, b2)) > function.z && min(min(v0, v3), min(b1, b2)) < function.w;
+    seen = high > function.z && low < function.w;
     cell_functions[k] = seen ? function : NOT_SEEN;
-#endif
-    /* a cubic that is nowhere below 0, and 0 at two places within, is 0: its ends, in faces of cells, may be
-     * rounded to those behind. So that cells are clear here where a leap would pass over them. */
-#if HAS_LABELS
-    bool clear = v1 == 0.0 && v2 == 0.0 && function.z >= 0.0;
+    bool clear = zero && function.z >= 0.0;
 #else
-    bool clear = v1 == 0.0 && v2 == 0.0 && seenValues.x >= 0.0;
+    bool clear = zero && seenValues.x >= 0.0;
 #endif
-    if (seen && !clear && span > 0.0 && is_inside(t))
+    if (seen && !clear && end > t && is_inside(t))
         visible |= 1u << uint(k);
 }
 
 /* The value over cell k. */
 void take_cubic(const in int k) {
-    /* of differences: what is even stays so */
-    float d1 = first_values[k] - cell_values[k], d2 = second_values[k] - first_values[k];
-    float d3 = cell_values[k + 1] - second_values[k];
-    cubic[0] = cell_values[k];
-    cubic[1] = 0.5 * (11.0 * d1 - 7.0 * d2 + 2.0 * d3);
-    cubic[2] = 4.5 * (3.0 * d2 - 2.0 * d1 - d3);
-    cubic[3] = 4.5 * (d1 - 2.0 * d2 + d3);
+    cubic = cubics[k];
 #if HAS_LABELS
     function_here = cell_functions[k];
 #endif
@@ -217,7 +249,7 @@ vec4 sums_at(const in int node, const in float row) {
 #if HAS_LABELS
     return texture(sums, (vec2(float(node), function_here.x + row) + 0.5) / vec2(textureSize(sums, 0)));
 #else
-    return texture(sums, vec2((float(node) + 0.5) / float(textureSize(sums, 0).x), (row + 0.5) * 0.25));
+    return texture(sums, vec2((float(node) + 0.5) * node_size, (row + 0.5) * 0.25));
 #endif
 }
 
@@ -283,7 +315,7 @@ vec4 exact_mean(const in float from, const in float to) {
         float spans = float(textureSize(sums, 0).x - 1);
 #endif
         mean = mean * rest + mean_within(high.node, 0.0, high.beyond) * high.beyond + between * spans;
-        mean /= float(high.node - behind) + rest + high.beyond;
+        mean *= 1.0 / (float(high.node - behind) + rest + high.beyond);
     }
     return max(mean, 0.0);
 }
@@ -311,15 +343,20 @@ float find_wall(const in vec2 walls) {
     float high = first ? turns.x : second ? turns.y : 1.0;
     float at = value_in(high) <= walls.x ? walls.x : walls.y;
     bool rises = at == walls.y;
-    float u = 0.5 * (low + high);
-    for (int i = 0; i < 20; i++) {
+    float u = 0.5 * (low + high), way = high - low;
+    /* each way is at most half of the one before, or of what is between low and high: it ends. Neighbouring rays wait
+     * for the last of them: no count of rounds, which a compiler would unroll. */
+    do {
         float value = value_in(u), slope = (3.0 * cubic[3] * u + 2.0 * cubic[2]) * u + cubic[1];
         bool beyond = rises ? value >= at : value <= at;
         high = beyond ? u : high;
         low = beyond ? low : u;
-        float next = u - (value - at) / (slope == 0.0 ? 1.0e-30 : slope);
-        u = next > low && next < high ? next : 0.5 * (low + high);
-    }
+        float newton = (value - at) / (slope == 0.0 ? 1.0e-30 : slope), next = u - newton;
+        bool better = next > low && next < high && abs(newton) <= 0.5 * abs(way);
+        next = better ? next : 0.5 * (low + high);
+        way = next - u;
+        u = next;
+    } while (abs(way) > 1.0e-7);
     return u;
 }
 #endif
@@ -332,8 +369,8 @@ void PLUG_volume_cell_fit(const in int k, const in float t, const in float end, 
     if (!is_looked_at(k, t))
         return;
     take_cubic(k);
-    float v0 = cubic[0], v3 = cell_values[k + 1];
-    float b1 = v0 + cubic[1] / 3.0, b2 = v0 + (2.0 * cubic[1] + cubic[2]) / 3.0;
+    float v0 = cubic[0], v3 = value_in(1.0);
+    float b1 = v0 + cubic[1] * (1.0 / 3.0), b2 = b1 + (cubic[1] + cubic[2]) * (1.0 / 3.0);
     float low = min(min(v0, v3), min(b1, b2)), high = max(max(v0, v3), max(b1, b2));
     float slopes = 0.0;
 #if HAS_WALL
@@ -404,7 +441,7 @@ void PLUG_volume_cell_part(inout VolumeMix mixed, const in int k, const in float
         return;
     take_cubic(k);
     float from = value_in(u), to = value_in(u_end), part = u_end - u;
-    float shift = (2.0 * cubic[2] + 3.0 * cubic[3] * (u + u_end)) * part * part / 12.0;
+    float shift = (2.0 * cubic[2] + 3.0 * cubic[3] * (u + u_end)) * part * part * (1.0 / 12.0);
 #if HAS_WALL
     /* the line keeps on its side of what is opaque */
     shift = clamp(shift, max(from, to) - cell_walls[k].y, min(from, to) - cell_walls[k].x);

@@ -58,7 +58,11 @@ struct CellNeed {
 };
 
 float piece_t[CHUNK + 1];
-CellNeed piece_need[CHUNK];
+vec4 piece_needs[CHUNK]; /* of each: see part_count */
+vec2 piece_part[CHUNK];
+#if HAS_WALL
+float piece_opaque[CHUNK];
+#endif
 
 /* Into how many parts a piece is cut that may err by `share`, where so much shines through. What it needs beyond
  * comes from the purse; what it does not need goes there.
@@ -66,15 +70,20 @@ CellNeed piece_need[CHUNK];
  * Colours in a part of depth d, that differ by c, have the right mean over depth; where among them what hides and what
  * is hidden lie is lost: at most c (1 - exp(-d/2))^2 / 2, below c d^2 / 8, and below c A d / 8 for its opacity A. Of n
  * parts the first are at most d^2 / (8 n^2) times the changes of all, the others d / (8 n) times the greatest. */
-float part_count(const in CellNeed need, const in float share, const in float through, inout float purse) {
-    float hides = 0.125 * through * need.depth, error = through * need.error;
-    float square = hides * need.depth * need.turns, plain = hides * min(need.depth, 1.0) * need.change;
-    float allowed = share + 0.125 * max(purse, 0.0);
-    float by_turns = sqrt((error + square) / allowed);
-    float by_change = (plain + sqrt(plain * plain + 4.0 * allowed * error)) / (2.0 * allowed);
-    float most = max(need.most, ceil(min(sqrt(square / allowed), plain / allowed)));
+vec4 needs_of(const in CellNeed need) {
+    float hides = 0.125 * need.depth;
+    return vec4(need.error, hides * need.depth * need.turns, hides * min(need.depth, 1.0) * need.change, need.most);
+}
+
+float part_count(const in vec4 needs, const in float share, const in float through, inout float purse) {
+    float error = through * needs.x, square = through * needs.y, plain = through * needs.z;
+    float allowed = share + 0.125 * max(purse, 0.0), inverse = 1.0 / allowed;
+    float by_turns = sqrt((error + square) * inverse);
+    float by_change = 0.5 * inverse * (plain + sqrt(plain * plain + 4.0 * allowed * error));
+    float most = max(needs.w, ceil(min(sqrt(square * inverse), plain * inverse)));
     float parts = clamp(min(ceil(min(by_turns, by_change)), most), 1.0, MOST_PARTS);
-    purse += share - (error / parts + min(square / parts, plain)) / parts;
+    float part = 1.0 / parts;
+    purse += share - (error * part + min(square * part, plain)) * part;
     return parts;
 }
 #endif
@@ -313,13 +322,16 @@ void main() {
                 /* PLUG: volume_cell_fit (k, t_cell, t_end, need) */
 #if HAS_WALL
                 need.part.y = max(min(need.part.y, need.opaque_at), need.part.x);
+                piece_opaque[k] = need.opaque_at;
 #endif
-                piece_need[k] = need;
+                piece_needs[k] = needs_of(need);
+                piece_part[k] = need.part;
                 if (need.depth > 0.0 || need.opaque_at <= 1.0)
                     seen |= 1u << uint(k);
             }
             int k = 0;
-            float part = 0.0, parts = 0.0;
+            float part = 0.0, parts = 0.0, t_piece = from, piece_length = 0.0;
+            vec3 way; /* where parts begin: the first, from one to the next; where the last ends */
             while (true) {
                 if (part >= parts) {
                     if (seen == 0u)
@@ -327,16 +339,19 @@ void main() {
                     k = lowest_bit(seen);
                     seen &= seen - 1u;
                     part = 0.0;
+                    t_piece = piece_t[k];
+                    float t_end = piece_t[k + 1];
+                    piece_length = t_end - t_piece;
                     /* what is clear has had its share, too */
-                    parts = part_count(piece_need[k], rate * (piece_t[k + 1] - spent_until), 1.0 - accumulated.a, purse);
-                    spent_until = piece_t[k + 1];
+                    parts = part_count(piece_needs[k], rate * (t_end - spent_until), 1.0 - accumulated.a, purse);
+                    spent_until = t_end;
+                    vec2 range = piece_part[k];
+                    way = vec3(range.x, (range.y - range.x) / parts, range.y);
                 }
-                vec2 range = piece_need[k].part;
-                float u = mix(range.x, range.y, part / parts), u_end = mix(range.x, range.y, (part + 1.0) / parts);
+                float u = way.x + part * way.y, u_end = min(way.x + (part + 1.0) * way.y, way.z);
                 part += 1.0;
-                float t_piece = piece_t[k];
-                float span = (piece_t[k + 1] - t_piece) * (u_end - u);
-                float begin = t_piece + u * (piece_t[k + 1] - t_piece);
+                float span = piece_length * way.y;
+                float begin = t_piece + u * piece_length;
                 VolumeMix mixed = VolumeMix(vec4(0.0), false);
                 /* PLUG: volume_cell_part (mixed, k, t_piece, u, u_end, span) */
                 VolumeSample s;
@@ -359,9 +374,9 @@ void main() {
                 note_end(accumulated.a, begin + span);
 #endif
 #if HAS_WALL
-                if (part >= parts && piece_need[k].opaque_at <= 1.0) {
-                    float opaque_at = piece_need[k].opaque_at;
-                    float met = t_piece + opaque_at * (piece_t[k + 1] - t_piece);
+                float opaque_at = piece_opaque[k];
+                if (part >= parts && opaque_at <= 1.0) {
+                    float met = t_piece + opaque_at * piece_length;
                     vec4 wall = vec4(0.0);
                     /* PLUG: volume_cell_wall (wall, k, t_piece, opaque_at) */
                     color = vec4(wall.rgb / max(wall.a, 1.0), min(wall.a, 1.0));

@@ -25,6 +25,7 @@ uniform sampler3D voxelQuads; /* a texel has the values at (i, j), (i + 1, j), (
 
 vec3 texel_size;
 
+#if !CELLS
 /* As a linear filter would, but from two looks, and with weights of as many bits as floats have. */
 float value_at(const in float t) {
     vec3 last = vec3(textureSize(voxelQuads, 0)) - 1.0;
@@ -36,6 +37,7 @@ float value_at(const in float t) {
     vec2 pair = mix(quad.xz, quad.yw, way.x);
     return mix(pair.x, pair.y, way.y);
 }
+#endif
 #else
 float value_at(const in float t) {
     return voxel_scalar(voxel_at(ray_origin + t * ray_direction));
@@ -43,11 +45,13 @@ float value_at(const in float t) {
 #endif
 
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
-    vec3 count = voxel_count();
-    cells_begin(count);
 #if HAS_QUADS
+    vec3 count = vec3(textureSize(voxelQuads, 0));
     texel_size = 1.0 / count;
+#else
+    vec3 count = voxel_count();
 #endif
+    cells_begin(count);
 #if !CELLS
     float nodes = float(textureSize(integrals, 0).x);
     table_place = vec2((nodes - 1.0) / nodes, 0.5 / nodes);

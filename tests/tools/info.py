@@ -221,8 +221,8 @@ check_equal(program["gradients"], 0, "no gradient where nobody asks")
 check_equal([e for m in ("normal_eye", "gradient") for e in program["members"][m]["read_by"]], [], "nobody reads one")
 check_equal(sum(f["count"] for f in program["fetched"]), program["fetches"], "every fetch is somebody's")
 fetched = {f["sampler"]: f["count"] for f in program["fetched"]}
-check_equal((sorted(fetched), fetched["voxels"], fetched["ranges"], fetched["leaps"]),
-            (["leaps", "ranges", "sums", "voxels"], 4, 1, 1), "a cubic in a cell, what bounds it, and its integrals")
+check_equal((sorted(fetched), fetched["voxelQuads"], fetched["ranges"], fetched["leaps"]),
+            (["leaps", "ranges", "sums", "voxelQuads"], 2, 1, 1), "a cubic in a cell, what bounds it, and its integrals")
 check_equal((plan["gradients"][0], plan["lights"][0], plan["styles"][0]), ("none", "0", "in tables"),
             "no gradient, light or style at samples")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
