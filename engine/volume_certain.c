@@ -45,15 +45,14 @@ static size_t slab_of(const uint32_t blocks[3], int axis, size_t i) {
 
 /* A ray with the direction d goes from side to side of a slab across axis k in |d_k|, and lies the
  * longest way across that axis for which |d_k| / side of the volume is greatest: no longer in each
- * slab than its part of the longest ray. Beyond the ends of a ray, which may be those of the
- * volume, half a window counts, too. */
+ * slab than its part of the longest ray. */
 static double part_of(const plr_rates *r, int axis, size_t slab) {
     const plr_bends *b = r->v->bends;
     size_t size = b->size[axis], first = slab * b->cells;
     bool ends[2] = {slab == 0, slab + 1 == b->blocks[axis]};
     double voxels = (double)(size - 1 - first < b->cells ? size - 1 - first : b->cells);
     voxels += 0.5 * ends[0] + 0.5 * ends[1];
-    return r->v->longest * voxels / (double)size + r->window / 2 * (ends[0] + ends[1]);
+    return r->v->longest * voxels / (double)size;
 }
 
 enum {
@@ -161,7 +160,7 @@ static jumps jumps_of(const plr_rates *r, const float *steep) {
     return (jumps){most * length_of(rim), most * length_of(all)};
 }
 
-/* Jumps within count by length or one by one. */
+/* Jumps within count as many as can be in each step, or one by one. */
 static integral integrate_all(const plr_rates *r, const plr_rate *rate, const float *extinction,
                               double weight) {
     jumps j = jumps_of(r, rate->steep);
@@ -181,20 +180,24 @@ static double opacity_at(const plr_certain *v, double value) {
     return a + (at - (double)i) * (b - a);
 }
 
-/* Whether any value, or each, is opaque. */
-static bool is_opaque(const plr_certain *v, bool each) {
+/* The least and the greatest of all values. */
+typedef struct opacities {
+    double low, high;
+} opacities;
+
+static opacities opacities_of(const plr_certain *v) {
     double low = v->bends->low, high = v->bends->high;
-    bool first = opacity_at(v, low) >= 1, last = opacity_at(v, high) >= 1;
-    bool any = first || last, all = first && last;
+    double first = opacity_at(v, low), last = opacity_at(v, high);
+    opacities found = {fmin(first, last), fmax(first, last)};
     for (uint32_t i = 0; i < v->texel_count; i++) {
         double value = (double)i / (v->texel_count - 1);
-        bool opaque = (double)v->texels[4 * (size_t)i + 3] >= 1;
+        double opacity = (double)v->texels[4 * (size_t)i + 3];
         if (value <= low || value >= high)
             continue;
-        any = any || opaque;
-        all = all && opaque;
+        found.low = fmin(found.low, opacity);
+        found.high = fmax(found.high, opacity);
     }
-    return each ? all : any;
+    return found;
 }
 
 /* A cast, for steps of some length. */
@@ -206,34 +209,42 @@ typedef struct state {
     double steps; /* optical depth from the middle of a step to its end: how wrong */
 } state;
 
-static bool begin(state *s, const plr_certain *volumes, size_t count, const double *steps) {
+static bool add(state *s, const plr_certain *v, double step) {
+    /* beyond, values are cut off, which bends them */
+    if (!(v->bends->low >= 0 && v->bends->high <= 1))
+        return false;
+    opacities found = opacities_of(v);
+    if (found.high <= 0)
+        return true;
+    bool wall = found.low >= 1;
+    if (found.high >= 1 && !wall)
+        return false;
+    plr_rates *r = &s->rates[s->count];
+    s->walls[s->count++] = wall;
+    if (!plr_rates_begin(r, v, step))
+        return false;
     for (int k = 0; k < PLR_CHANNELS; k++) {
-        s->all.low[k] = INFINITY;
-        s->all.high[k] = 0;
+        plr_curve_part c = plr_curve_between(r->curves[k], v->bends->low, v->bends->high);
+        s->all.low[k] = fmin(s->all.low[k], c.low);
+        s->all.high[k] = fmax(s->all.high[k], c.high);
     }
-    s->all.many = count > 1;
-    for (size_t i = 0; i < count; i++) {
-        const plr_certain *v = &volumes[i];
-        plr_rates *r = &s->rates[s->count++];
-        /* beyond, values are cut off, which bends them */
-        bool known = v->bends->low >= 0 && v->bends->high <= 1;
-        s->walls[i] = known && is_opaque(v, true);
-        *r = (plr_rates){0};
-        if (!known || (!s->walls[i] && is_opaque(v, false)) || !plr_rates_begin(r, v, steps[i]))
-            return false;
-        for (int k = 0; k < PLR_CHANNELS; k++) {
-            plr_curve_part c = plr_curve_between(r->curves[k], v->bends->low, v->bends->high);
-            s->all.low[k] = fmin(s->all.low[k], c.low);
-            s->all.high[k] = fmax(s->all.high[k], c.high);
-        }
-        if (s->walls[i])
-            continue;
-        const plr_curve *tau = r->curves[PLR_CHANNELS];
-        s->all.most += plr_curve_between(tau, v->bends->low, v->bends->high).high;
-        s->all.strays += r->strays;
-        s->steps += r->strays * steps[i] / 2;
-    }
+    if (wall)
+        return true;
+    const plr_curve *tau = r->curves[PLR_CHANNELS];
+    s->all.most += plr_curve_between(tau, v->bends->low, v->bends->high).high;
+    s->all.strays += r->strays;
+    s->steps += r->strays * step / 2;
     return true;
+}
+
+static bool begin(state *s, const plr_certain *volumes, size_t count, const double *steps) {
+    bool known = true;
+    for (int k = 0; k < PLR_CHANNELS; k++)
+        s->all.low[k] = INFINITY;
+    for (size_t i = 0; known && i < count; i++)
+        known = add(s, &volumes[i], steps[i]);
+    s->all.many = s->count > 1;
+    return known;
 }
 
 /* Of a wall the first sample is all that is seen. */
@@ -282,10 +293,10 @@ static double error_of(state *s) {
      * exp(a - (1 - b) x') (a + b x'), and x' exp(-(1 - b) x') is below 1 / (e (1 - b)). */
     double hidden = share < 1 ? exp(optical.a) * (optical.a + share / (EULER * (1 - share))) : 1;
     double through = share < 1 ? exp(s->steps) * hidden : INFINITY, seen = optical.a + optical.b;
-    worst = fmin(hidden, seen);
+    worst = hidden;
     /* |c - B| is at most `high`; or else, t what shines through all behind, at most half of the
      * range of colours times 2 - t, and their middle times t */
-    for (int k = 0; k < PLR_CHANNELS; k++) {
+    for (int k = 0; s->count && k < PLR_CHANNELS; k++) {
         double middle = (s->all.low[k] + s->all.high[k]) / 2, wide = s->all.high[k] - s->all.low[k];
         double mixed = middle * through + wide * seen;
         worst = fmax(worst, fmin(mixed, s->all.high[k] * seen) + rest[k]);

@@ -225,8 +225,8 @@ enum {
 
 /* Of the error a part is for where rays end early, and for rounding. */
 #define CERTAIN_PART 0.8
-/* Cells cost less than such steps, in voxels. */
-#define LEAST_CERTAIN 0.125
+/* Cells cost less than shorter steps, in voxels. */
+#define LEAST_CERTAIN 0.16
 /* Steps so many times as long are worth a try. */
 #define WORTH 1.06
 

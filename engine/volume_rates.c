@@ -73,21 +73,12 @@ static double faces_in(double step, double apart) {
     return sum;
 }
 
-/* Of a step there is as much as `faces` says. Or else: faces across an axis are crossed once in
- * voxel / |d| of a ray with the direction d, where the slope jumps by |d| J. Each counts h^2/8 at
- * most, spread over the lesser one of that length and of the window around it: J max(d^2 / voxel,
- * |d| / window), of which the second one is above the first by no more than voxel / (2 window)^2.
- * Squares of d sum up to 1. */
+/* As many faces as can be in a step. */
 static double jumps_of(const plr_rates *r, const double faces[3], size_t i) {
-    double each[3], most = 0, more = 0;
-    for (int k = 0; k < 3; k++) {
-        double voxel = r->v->voxel[k];
-        double jump = (double)r->found[PLR_BEND_JUMP + k][i] / voxel;
-        each[k] = jump * faces[k];
-        most = fmax(most, jump / voxel);
-        more += r->window > 0 ? jump * voxel / (4 * r->window * r->window) : INFINITY;
-    }
-    return fmin(length_of(each), r->step * r->step / 8 * (most + more));
+    double each[3];
+    for (int k = 0; k < 3; k++)
+        each[k] = (double)r->found[PLR_BEND_JUMP + k][i] / r->v->voxel[k] * faces[k];
+    return length_of(each);
 }
 
 static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_t i) {
@@ -110,13 +101,8 @@ static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_
 
 static void know_blocks(plr_rates *r) {
     double faces[3];
-    r->window = INFINITY;
-    for (int k = 0; k < 3; k++) {
-        double voxel = r->v->voxel[k], side = r->v->bends->cells * voxel;
-        faces[k] = faces_in(r->step, voxel) / r->step;
-        r->window = fmin(r->window, fmin(2 * (r->around[k] * side - r->step), 2 * voxel));
-    }
-    r->window = r->count > 1 ? fmax(r->window, 0) : 0;
+    for (int k = 0; k < 3; k++)
+        faces[k] = faces_in(r->step, r->v->voxel[k]) / r->step;
     for (size_t i = 0; i < r->count; i++)
         r->known[i] = block_of(r, faces, i);
 }
@@ -156,9 +142,10 @@ static void put(plr_rate *rate, size_t i, const change *c, double more, double t
 static double odd_of(const plr_rates_all *all, int channel, const change *tau, const change *c,
                      double h) {
     double wide = tau->high - tau->low, high = all->high[channel];
+    double most = all->many ? all->most : tau->high;
     double own = high * fmin(tau->rise * tau->rise * h * h * h / 64, wide * wide * h / 4);
     double both =
-        fmin(c->rise * tau->rise * h * h / 12, (c->high - c->low) * wide * (1 + tau->high * h / 2));
+        fmin(c->rise * tau->rise * h * h / 12, (c->high - c->low) * wide * (1 + most * h / 2));
     double others = high * all->strays + all->most * (high - all->low[channel]);
     return own + both + (all->many ? others * tau->rise * h * h / 12 : 0);
 }

@@ -39,7 +39,6 @@ typedef struct plr_rates {
     uint32_t around[3]; /* blocks, as far as a step reaches */
     uint32_t blocks[3]; /* 1 each where steps reach from end to end */
     size_t count;
-    double window; /* jumps are known so far around faces */
     plr_rates_block *known;
     float *found[PLR_BENDS];
     plr_curve *curves[PLR_CHANNELS + 1];

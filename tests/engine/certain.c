@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/volume_certain.h"
 
@@ -151,6 +152,27 @@ static float field(numbers *n, int kind, const double place[3], const double tur
     return kind == BELL ? (float)exp(-12 * squared) : shape(n, kind, along);
 }
 
+static void finish(volume *v, uint32_t count, double reference) {
+    v->certain = (plr_certain){.texels = v->texels, .texel_count = count, .reference = reference};
+    double squared = 0;
+    for (int i = 0; i < 3; i++) {
+        v->certain.voxel[i] = v->dimensions[i] / v->size[i];
+        squared += v->dimensions[i] * v->dimensions[i];
+    }
+    v->certain.longest = sqrt(squared);
+    plr_image image = {.width = v->size[0],
+                       .height = v->size[1],
+                       .depth = v->size[2],
+                       .components = 1,
+                       .type = PLR_FLOAT32,
+                       .samples = v->values};
+    static jmp_buf failed;
+    if (setjmp(failed))
+        abort();
+    plr_arena_init(&v->arena, NULL, &failed);
+    v->certain.bends = plr_bends_make(&v->arena, &image);
+}
+
 static void make(volume *v, numbers *n) {
     int kind = (int)(VOLUMES * next(n)), function = (int)(FUNCTIONS * next(n)),
         tint = (int)(FUNCTIONS * next(n));
@@ -178,39 +200,65 @@ static void make(volume *v, numbers *n) {
         v->texels[4 * i + 3] =
             opaque ? 1 : (float)(scale * (double)shape(n, function, (double)i / count));
     }
-    v->certain =
-        (plr_certain){.texels = v->texels, .texel_count = count, .reference = 0.02 + 0.3 * next(n)};
-    double squared = 0;
-    for (int i = 0; i < 3; i++) {
-        v->certain.voxel[i] = v->dimensions[i] / v->size[i];
-        squared += v->dimensions[i] * v->dimensions[i];
-    }
-    v->certain.longest = sqrt(squared);
-    plr_image image = {.width = v->size[0],
-                       .height = v->size[1],
-                       .depth = v->size[2],
-                       .components = 1,
-                       .type = PLR_FLOAT32,
-                       .samples = v->values};
-    static jmp_buf failed;
-    if (setjmp(failed))
-        abort();
-    plr_arena_init(&v->arena, NULL, &failed);
-    v->certain.bends = plr_bends_make(&v->arena, &image);
+    finish(v, count, 0.02 + 0.3 * next(n));
 }
 
-/* A ray from side to side of the box that is in all. */
+/* Those of the analytic tests: a ramp, extinction that falls off exponentially, a ball. */
+static void make_known(volume *v, int number) {
+    static const uint32_t size[] = {11, 9, 12};
+    static const double dimensions[] = {0.64, 0.5, 0.56}, deepest[] = {6, 25, 18};
+    size_t at = 0;
+    memcpy(v->size, size, sizeof size);
+    memcpy(v->dimensions, dimensions, sizeof dimensions);
+    for (uint32_t z = 0; z < size[2]; z++)
+        for (uint32_t y = 0; y < size[1]; y++)
+            for (uint32_t x = 0; x < size[0]; x++) {
+                double place[] = {(x + 0.5) / size[0], (y + 0.5) / size[1], (z + 0.5) / size[2]};
+                double along = 0.6 * place[0] + 0.3 * place[1] + 0.5 * place[2], squared = 0;
+                for (int i = 0; i < 3; i++)
+                    squared += (place[i] - 0.5) * (place[i] - 0.5);
+                double values[] = {0.75 * along - 0.08, exp(-4 * along), fmax(1 - 5 * squared, 0)};
+                v->values[at++] = (float)fmax(values[number], 0);
+            }
+    double reference = dimensions[0] / size[0];
+    for (uint32_t i = 0; i < MOST_TEXELS; i++) {
+        double value = i / (MOST_TEXELS - 1.0);
+        float color = number == 2 ? (float)value : 1;
+        const float texel[] = {color, 1 - color, 0.5F,
+                               (float)-expm1(-deepest[number] * value * reference)};
+        memcpy(v->texels + 4 * (size_t)i, texel, sizeof texel);
+    }
+    finish(v, MOST_TEXELS, reference);
+}
+
+/* Half of it, of the box that is in all. */
+static double side_of(const volume *const *volumes, size_t count, int axis) {
+    double half = volumes[0]->dimensions[axis] / 2;
+    for (size_t k = 1; k < count; k++)
+        half = fmin(half, volumes[k]->dimensions[axis] / 2);
+    return half;
+}
+
+/* A ray from side to side of that box, or to or from somewhere in it. */
 static void aim(const volume *const *volumes, size_t count, numbers *n, double from[3],
                 double to[3]) {
     int axis = (int)(3 * next(n));
     bool along = next(n) < 0.3;
     for (int i = 0; i < 3; i++) {
-        double half = volumes[0]->dimensions[i] / 2;
-        for (size_t k = 1; k < count; k++)
-            half = fmin(half, volumes[k]->dimensions[i] / 2);
+        double half = side_of(volumes, count, i);
         from[i] = i == axis ? -half : half * (2 * next(n) - 1);
         to[i] = i == axis ? half : along ? from[i] : half * (2 * next(n) - 1);
     }
+    int other = (axis + 1 + (int)(2 * next(n))) % 3;
+    if (next(n) < 0.2) { /* across an edge */
+        double half = fabs(to[axis]);
+        to[axis] = half * (2 * next(n) - 1);
+        to[other] = to[other] < from[other] ? -side_of(volumes, count, other)
+                                            : side_of(volumes, count, other);
+    }
+    double inside = next(n) < 0.3 ? 0.4 * next(n) : 0;
+    for (int i = 0; i < 3; i++)
+        from[i] += inside * (to[i] - from[i]);
 }
 
 /* Rays and their true colours. */
@@ -312,11 +360,34 @@ static void check_cases(size_t together, double allowed, double useful) {
     TAP_RESULT(some > CASES / 4 && ratios[some / 2] < useful, "and they are of use");
 }
 
+/* Bounds are above the errors, but not so many times. */
+static void check_known(int number, const char *name, double times) {
+    static volume v;
+    const volume *const volumes[] = {&v};
+    numbers n = {.state = SEED};
+    static ray rays[RAYS];
+    make_known(&v, number);
+    for (double length = 1; length >= 0.25; length /= 2) {
+        double step = length * v.certain.voxel[0], worst = 0;
+        double bound = plr_certain_error(&v.certain, 1, &step);
+        for (int i = 0; i < 10; i++) {
+            find_rays(volumes, 1, &n, rays);
+            worst = fmax(worst, measure(volumes, 1, step, rays));
+        }
+        TAP_RESULT(bound >= worst && bound <= times * worst,
+                   "%s, %g voxels: bound %g, greatest error %g", name, length, bound, worst);
+    }
+    plr_arena_finish(&v.arena);
+}
+
 int main(void) {
     static const double useful[] = {7, 20};
     for (size_t together = 1; together <= 2; together++) {
         check_cases(together, 1.0 / 64, useful[together - 1]);
         check_cases(together, 1.0 / 1023, useful[together - 1]);
     }
+    check_known(0, "ramp", 80);
+    check_known(1, "exponential", 120);
+    check_known(2, "ball", 220);
     return tap_done();
 }
