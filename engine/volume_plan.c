@@ -269,13 +269,13 @@ static double find_certain(plr_view *view, const plr_cast *cast, double error) {
         high = found <= allowed ? high : length;
         if (low >= whole || (!(low > 0) && length <= LEAST_CERTAIN))
             break;
-        /* errors grow with the square of steps, or faster */
-        double guess = 0.99 * length * sqrt(allowed / found);
-        length = !(low > 0)                                 ? LEAST_CERTAIN
-                 : found > 0 && guess > low && guess < high ? guess
-                                                            : sqrt(low * high);
-        if (low > 0 && (length < WORTH * low || (high < whole && high < WORTH * low)))
+        if (low > 0 && high < WORTH * low)
             break;
+        /* errors grow with the square of steps, more or less */
+        double guess = fmax(length * sqrt(allowed / found), WORTH * low);
+        length = !(low > 0)                  ? LEAST_CERTAIN
+                 : found > 0 && guess < high ? 0.99 * guess
+                                             : sqrt(low * high);
     }
     return low;
 }
