@@ -59,7 +59,9 @@ static plr_choice say_method(plr_view *view, const plr_plan *plan) {
     static const char *const costs[] = {
         [PLR_METHOD_MIDPOINT] = "a sample and its styles a step",
         [PLR_METHOD_PREINTEGRATED] = "a sample a step, and an integral where it can be seen",
-        [PLR_METHOD_CELLS] = "three samples a cell, and as many integrals as the error asks for"};
+        [PLR_METHOD_CELLS] =
+            "one look at the corners of each cell, or three samples, and as many integrals as the "
+            "error asks for"};
     return (plr_choice){"sampling", names[plan->method],
                         plr_arena_format(&view->arena, "%s; costs %s, of at most %.3g voxels",
                                          plan->why, costs[plan->method], plan->step)};

@@ -35,7 +35,7 @@ static const char leaping_units[] = "volume/Volume volume/grid volume/leaps volu
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                                 const plr_cast *cast) {
     bool segments = is_segmented(cast), cells = cast->plan.method == PLR_METHOD_CELLS;
-    /* segments take less time to read bytes so, but not floats */
+    /* segments read bytes so, of one volume */
     bool quads = segments && plr_volume_has_quads(state) &&
                  (cells || (cast->count == 1 && state->grid->bytes));
     /* general programs are told by joinReach */

@@ -1,5 +1,5 @@
 /* A volume with a table (table.glsl), cut at the faces of voxel cells. In a cell the trilinear value is a
- * cubic along the ray: four samples have it exactly. It is cut further until its parts are straight enough.
+ * cubic along the ray, from its corners, or from four samples, exactly. It is cut further until its parts are straight enough.
  * A unit of Volume.glsl's effect.
  *
  * Along a part the straight line stands for the value that has the same mean. Along a line colour and opacity are
@@ -288,8 +288,8 @@ vec4 mean_within(const in int node, const in float from, const in float to) {
     float alpha = 0.5 * (a.a + b.a);
     float middle = abs(alpha) < 0.03125 ? alpha * (1.0 + alpha * (0.5 + alpha * (1.0 / 3.0 + alpha * 0.25)))
                                         : -log(max(0.5 * (p + q), TINY));
-    float mean = middle + r2 * (1.0 / 6.0 + r2 * (1.0 / 20.0 + r2 * (1.0 / 42.0 + r2 / 72.0)));
-    float tilt = r * (1.0 / 3.0 + r2 * (1.0 / 15.0 + r2 * (1.0 / 35.0 + r2 / 63.0)));
+    float mean = middle + r2 * (1.0 / 6.0 + r2 * (1.0 / 20.0 + r2 * (1.0 / 42.0 + r2 * (1.0 / 72.0))));
+    float tilt = r * (1.0 / 3.0 + r2 * (1.0 / 15.0 + r2 * (1.0 / 35.0 + r2 * (1.0 / 63.0))));
     if (abs(r) > 0.3) {
         float lp = log(max(p, TINY)), lq = log(max(q, TINY)), t = 0.5 * (lq - lp);
         mean = 1.0 - 0.5 * (lp + lq) - t / r;
