@@ -51,6 +51,7 @@ typedef struct plr_cast {
     bool everywhere;          /* an author draws where no volume is, too */
     plr_plan plan;            /* how rays are integrated */
     double allowed;           /* error of the integral along a ray, of PLR_METHOD_CELLS */
+    bool dense;               /* next to nothing is clear: nobody looks for what is not */
     bool early_end;           /* rays may end early, and be cut into slabs */
     plr_piloted *piloted;     /* NULL: pilots have nothing to do with it */
 } plr_cast;

@@ -300,19 +300,38 @@ static bool is_certain(plr_view *view, plr_cast *cast) {
     return true;
 }
 
+/* Where something can be seen in so great a part, to look for where costs more than it saves. */
+#define DENSE 0.95
+
+static bool are_blocks_full(const plr_view *view, const plr_cast *cast) {
+    bool full = true;
+    for (size_t i = 0; i < cast->count; i++) {
+        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        /* general programs serve whatever can be seen */
+        full = full && !state->general &&
+               (double)state->full_blocks >= DENSE * (double)plr_blocks_count(state->blocks);
+    }
+    return full;
+}
+
 /* Whether samples in the middle of steps may be passed over by blocks: where clear ones may be one
  * by one. */
-static bool can_leap(plr_view *view, const plr_cast *cast, bool early_end) {
+static bool can_leap(plr_view *view, plr_cast *cast, bool early_end) {
     plr_volume_state *state = &view->volumes.volumes[cast->members[0]];
-    return !view->desc.no_leaping && cast->count == 1 && !state->general &&
-           plr_cast_skips(view, cast, early_end) && !plr_cast_is_divided(view, cast) &&
-           (state->table || find_table(view, state, true));
+    if (view->desc.no_leaping || cast->count > 1 || state->general ||
+        !plr_cast_skips(view, cast, early_end) || plr_cast_is_divided(view, cast) ||
+        !(state->table || find_table(view, state, true)))
+        return false;
+    bool full = are_blocks_full(view, cast);
+    cast->dense = full && plr_table_density(state->table) >= DENSE;
+    return !full;
 }
 
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     const plr_view_desc *desc = &view->desc;
     plr_plan *plan = &cast->plan;
     bool fixed = desc->step > 0;
+    cast->dense = false;
     *plan = (plr_plan){.asked = fixed             ? 0
                                 : desc->error > 0 ? desc->error
                                                   : USUAL_ERROR,
@@ -335,10 +354,12 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
         return;
     }
     plan->method = wanted;
-    plan->leaps =
-        wanted == PLR_METHOD_MIDPOINT ? can_leap(view, cast, early_end) : !desc->no_leaping;
-    if (wanted == PLR_METHOD_MIDPOINT)
+    if (wanted == PLR_METHOD_MIDPOINT) {
+        plan->leaps = can_leap(view, cast, early_end);
         return;
+    }
+    cast->dense = !desc->no_leaping && are_blocks_full(view, cast);
+    plan->leaps = !desc->no_leaping && !cast->dense;
     if (wanted == PLR_METHOD_CELLS && are_styled(view, cast)) {
         plan->method = PLR_METHOD_PREINTEGRATED;
         plan->why = "styles change what transfer functions make visible: they look at one place of "

@@ -19,6 +19,10 @@ static const char *storage_words(const plr_view *view, const plr_cast *cast) {
 /* Where there are no blocks to leap over. */
 static plr_choice say_skips(const plr_view *view, const plr_cast *cast, bool early_end) {
     bool authors = false;
+    if (cast->dense)
+        return (plr_choice){"skipping", "none",
+                            "something can be seen nearly everywhere: to look for it would cost "
+                            "more than it saves"};
     for (size_t i = 0; i < cast->count; i++)
         authors = authors || view->volumes.volumes[cast->members[i]].authors_see_all;
     if (cast->plan.method == PLR_METHOD_MIDPOINT && plr_cast_skips(view, cast, early_end))

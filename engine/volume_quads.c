@@ -29,9 +29,7 @@ bool plr_volume_has_quads(const plr_volume_state *state) {
     const plr_grid *grid = state->grid;
     plr_sample_type type = grid->bytes ? PLR_UNORM8 : grid->voxels->image.type;
     uint64_t count = (uint64_t)grid->size[0] * grid->size[1] * grid->size[2];
-    /* in general worlds values may get another range */
-    return !state->general && plr_volume_can_derive(state) &&
-           4 * count * sample_size(type) <= MOST_BYTES;
+    return plr_volume_can_derive(state) && 4 * count * sample_size(type) <= MOST_BYTES;
 }
 
 /* Copies samples of `size` bytes each to the four places of texels. */

@@ -35,9 +35,9 @@ static const char leaping_units[] = "volume/Volume volume/grid volume/leaps volu
 static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_volume_state *state,
                                 const plr_cast *cast) {
     bool segments = is_segmented(cast), cells = cast->plan.method == PLR_METHOD_CELLS;
-    /* segments read bytes so, of one volume */
+    /* segments read bytes so, of one volume, which may be others in general worlds */
     bool quads = segments && plr_volume_has_quads(state) &&
-                 (cells || (cast->count == 1 && state->grid->bytes));
+                 (cells || (cast->count == 1 && state->grid->bytes && !state->general));
     /* general programs are told by joinReach */
     bool joins = segments && !cells && cast->count == 1 &&
                  (state->general || plr_table_joins(state->table, state->step / state->reference,

@@ -87,5 +87,5 @@ bool plr_cast_skips(const plr_view *view, const plr_cast *cast, bool early_end) 
             return false;
         any = any || plr_volume_keeps_clear(state);
     }
-    return any && early_end && !cast->picks;
+    return any && early_end && !cast->picks && !cast->dense;
 }

@@ -602,6 +602,10 @@ void plr_table_reach(const plr_table *table, double length, double voxels,
             reach[i] = -1;
 }
 
+double plr_table_density(const plr_table *table) {
+    return table->visible ? (double)table->visible[table->nodes - 1] / (table->nodes - 1) : 0;
+}
+
 bool plr_table_sees(const plr_table *table, double low, double high) {
     double last = table->nodes - 1;
     /* filters round: a little more than the range counts */

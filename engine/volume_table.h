@@ -72,6 +72,8 @@ bool plr_table_joins(const plr_table *table, double length, double voxels);
  * a line of their mean; -1: nowhere, as in all bins if it is of little use. */
 void plr_table_reach(const plr_table *table, double length, double voxels,
                      float reach[PLR_TABLE_RANGES]);
+/* Of which part of all values, from 0 to 1, something can be seen; 0 for several functions. */
+double plr_table_density(const plr_table *table);
 /* Whether anything can be seen of values within a range. */
 bool plr_table_sees(const plr_table *table, double low, double high);
 /* A texture as `texture`: at which part of the way from the one value to the other lies, weighted

@@ -149,7 +149,7 @@ def pay_for_use():
     lit = count(*LIT)
     two = count("DirectionalLight { }\n", *LIT)
     no_light = count(LIT[1])
-    segments = 7  # two looks at bytes in two places; their integral, blocks in two places
+    segments = 5  # two looks at bytes in two places; their integral: everything can be seen
     suite.equal("a style without a function: the voxel in one place, and its tables", shaded["fetches"], segments + 1)
     suite.check("a light needs the gradient", lit["fetches"] > 1, lit)
     suite.equal("without a light no gradient is fetched", no_light["fetches"], segments)

@@ -209,8 +209,9 @@ check(knots[0]["color"][2] > knots[0]["color"][0] and knots[-1]["color"][0] > kn
 
 # ---- programs
 
-plugray.write("v.nrrd", data)
-result, text = info(scene("v.nrrd", "OpacityMapVolumeStyle { }"))
+plugray.write("v.nrrd", nrrd("uint8", (10, 10, 10), bytes(500) + bytes(range(250)) * 2))  # half of it is clear
+HALF = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 4 1 4 0 0 0x80808040 0xff } }"  # of it is clear
+result, text = info(scene("v.nrrd", HALF))
 plan = {choice["about"]: (choice["chosen"], choice["why"]) for choice in result["plan"]}
 check_equal(sorted(plan), ["early termination", "error", "gradients", "lights", "sampling", "skipping",
                             "storage", "styles"], "every choice of the plan is told")
@@ -227,8 +228,20 @@ check_equal((plan["gradients"][0], plan["lights"][0], plan["styles"][0]), ("none
             "no gradient, light or style at samples")
 check(", 0 gradients a step" in text and "is read by" not in text, "and nothing of it in the text", text)
 
+for kind, swing, chosen, expected in (("cells", 0.09, "cells", {"voxelQuads": 2, "sums": 11, "ranges": 1}),
+                                      ("midpoint", 0, "midpoint", {"voxels": 1})):
+    numbers = [0.3 + swing * (i * 37 % 11) / 2 for i in range(4 ** 3)]
+    result, text = info(scene("dense.nrrd", "OpacityMapVolumeStyle { }"),
+                        ("dense.nrrd", nrrd("float", (4, 4, 4), struct.pack("<64f", *numbers))))
+    plan = {choice["about"]: choice["chosen"] for choice in result["plan"]}
+    check_equal((plan["sampling"], plan["skipping"]), (chosen, "none"), f"{kind}: all can be seen, nobody looks for it")
+    fetched = {f["sampler"]: f["count"] for f in result["programs"][0]["fetched"]}
+    check_equal({name: fetched.get(name) for name in (*expected, "leaps")}, {**expected, "leaps": None},
+                f"{kind}: and each sample is taken once")
+
+
 def skipping(promise):
-    style = "ComposedVolumeStyle { renderStyle [ OpacityMapVolumeStyle { } ShadedVolumeStyle { } ] }"
+    style = "ComposedVolumeStyle { renderStyle [ %s ShadedVolumeStyle { } ] }" % HALF
     result, _ = info(scene("v.nrrd", style + '''
         effects Effect { parts EffectPart { type "FRAGMENT" url "data:text/plain,%s
         void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) { color.r = 1.0; }" } }''' % promise))
