@@ -16,17 +16,16 @@ AMBIENT, DIFFUSE, SPECULAR, POWER = 0.2, 0.7, 0.3, 20
 LIGHTING = """
 /* PLUG-PROMISE: colour-only keeps-transparent */
 uniform vec3 voxelsPerSide;
-vec3 lightDirection = vec3(0.0);
+vec3 lightDirection;
+void PLUG_volume_ray(inout float t_enter, inout float t_exit, const in vec3 origin_eye, const in vec3 direction_eye) {
+    vec3 place = (origin_eye - castle_ModelViewMatrix[3].xyz) * mat3(castle_ModelViewMatrix);
+    vec3 ahead = direction_eye * mat3(castle_ModelViewMatrix);
+    ahead = mix(ahead, vec3(1.0e-20), equal(ahead, vec3(0.0)));
+    vec3 faces = (-sign(ahead) * 0.5 * (voxelsPerSide - 1.0) - place) / ahead;
+    float enter = max(faces.x, max(faces.y, faces.z));
+    lightDirection = normalize(-(origin_eye + enter * direction_eye));
+}
 void PLUG_volume_shade(inout vec4 color, const in VolumeSample s) {
-    if (lightDirection == vec3(0.0)) {
-        vec3 towards = castle_ProjectionMatrix[2][3] != 0.0 ? normalize(-s.position_eye) : vec3(0.0, 0.0, 1.0);
-        vec3 ahead = towards * mat3(castle_ModelViewMatrix);
-        ahead = mix(ahead, vec3(1.0e-20), equal(ahead, vec3(0.0)));
-        vec3 place = (s.position - 0.5) * voxelsPerSide;
-        vec3 faces = (sign(ahead) * 0.5 * (voxelsPerSide - 1.0) - place) / ahead;
-        float back = min(faces.x, min(faces.y, faces.z));
-        lightDirection = normalize(-(s.position_eye + back * towards));
-    }
     float part = abs(dot(s.normal_eye, lightDirection));
     color.rgb = color.rgb * (%g + %g * part) + %g * pow(part, %g);
 }
