@@ -64,17 +64,18 @@ vec2 piece_part[CHUNK];
 float piece_opaque[CHUNK];
 #endif
 
+/* Errors of the integral; of colours, by all their changes, and by the greatest; how many parts make sense. */
+vec4 needs_of(const in CellNeed need) {
+    float hides = 0.125 * need.depth;
+    return vec4(need.error, hides * need.depth * need.turns, hides * min(need.depth, 1.0) * need.change, need.most);
+}
+
 /* Into how many parts a piece is cut that may err by `share`, where so much shines through. What it needs beyond
  * comes from the purse; what it does not need goes there.
  *
  * Colours in a part of depth d, that differ by c, have the right mean over depth; where among them what hides and what
  * is hidden lie is lost: at most c (1 - exp(-d/2))^2 / 2, below c d^2 / 8, and below c A d / 8 for its opacity A. Of n
  * parts the first are at most d^2 / (8 n^2) times the changes of all, the others d / (8 n) times the greatest. */
-vec4 needs_of(const in CellNeed need) {
-    float hides = 0.125 * need.depth;
-    return vec4(need.error, hides * need.depth * need.turns, hides * min(need.depth, 1.0) * need.change, need.most);
-}
-
 float part_count(const in vec4 needs, const in float share, const in float through, inout float purse) {
     float error = through * needs.x, square = through * needs.y, plain = through * needs.z;
     float allowed = share + 0.125 * max(purse, 0.0), inverse = 1.0 / allowed;
