@@ -124,10 +124,6 @@ typedef struct jumps {
     double rim, all;
 } jumps;
 
-static double length_of(const double v[3]) {
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 static double across(const plr_rates *r, const float *steep, int axis, double *rim) {
     const plr_bends *b = r->v->bends;
     const float *slope = b->found[PLR_BEND_SLOPE + axis], *jump = b->found[PLR_BEND_JUMP + axis];
@@ -157,7 +153,7 @@ static jumps jumps_of(const plr_rates *r, const float *steep) {
     for (int axis = 0; axis < 3; axis++)
         all[axis] = across(r, steep, axis, &rim[axis]);
     double most = r->step * r->step / 8;
-    return (jumps){most * length_of(rim), most * length_of(all)};
+    return (jumps){most * plr_rates_length(rim), most * plr_rates_length(all)};
 }
 
 /* Jumps within count as many as can be in each step, or one by one. */

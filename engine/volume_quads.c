@@ -1,6 +1,5 @@
-/* Voxels as a texture of which a texel has four: a value is mixed from two texels where a filter
- * reads eight, those of bytes in 16 bits each (see texture_upload.c), and with weights of few bits.
- */
+/* Voxels as a texture of which a texel has four: two texels have what a filter reads eight for,
+ * those of bytes in 16 bits each (see texture_upload.c). */
 #include <stdlib.h>
 #include <string.h>
 

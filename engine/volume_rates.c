@@ -22,7 +22,7 @@
 /* So far drivers round values. */
 #define ROUNDED 1e-5
 
-static double length_of(const double v[3]) {
+double plr_rates_length(const double v[3]) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
@@ -78,7 +78,7 @@ static double jumps_of(const plr_rates *r, const double faces[3], size_t i) {
     double each[3];
     for (int k = 0; k < 3; k++)
         each[k] = (double)r->found[PLR_BEND_JUMP + k][i] / r->v->voxel[k] * faces[k];
-    return length_of(each);
+    return plr_rates_length(each);
 }
 
 static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_t i) {
@@ -91,10 +91,10 @@ static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_
     }
     /* the second derivative is what a symmetric matrix without a diagonal makes of a direction: its
      * eigenvalues sum up to 0, their squares to the norm's, so none is above sqrt(2/3) of it */
-    double second = sqrt(4.0 / 3) * length_of(twist);
+    double second = sqrt(4.0 / 3) * plr_rates_length(twist);
     return (plr_rates_block){.low = -(double)r->found[PLR_BEND_DEPTH][i],
                              .high = (double)r->found[PLR_BEND_HEIGHT][i],
-                             .slope = length_of(slope),
+                             .slope = plr_rates_length(slope),
                              .even = second * r->step * r->step / 24,
                              .jumps = jumps_of(r, faces, i)};
 }

@@ -50,6 +50,8 @@ typedef struct plr_rates {
     float *numbers;                /* of all these */
 } plr_rates;
 
+/* Of what is added up along the three axes at right angles. */
+double plr_rates_length(const double v[3]);
 /* False without memory. Finish it all the same. */
 bool plr_rates_begin(plr_rates *r, const plr_certain *v, double step);
 void plr_rates_fill(plr_rates *r, const plr_rates_all *all);

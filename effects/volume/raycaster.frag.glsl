@@ -58,7 +58,7 @@ struct CellNeed {
 };
 
 float piece_t[CHUNK + 1];
-vec4 piece_needs[CHUNK]; /* of each: see part_count */
+vec4 piece_needs[CHUNK]; /* see needs_of */
 vec2 piece_part[CHUNK];
 #if HAS_WALL
 float piece_opaque[CHUNK];
