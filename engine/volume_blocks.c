@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum {
-    FINE_CELLS = 2, /* rays come closer to what can be seen; 9 bytes a block, and they take time */
+    FINE_CELLS = 2, /* rays come closer to what can be seen; 12 bytes a block, and they take time */
     COARSE_CELLS = 4,
     MOST_FINE = 1 << 21 /* voxels */
 };
@@ -131,43 +131,82 @@ void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image
         blocks->all_labels |= blocks->labels[i];
 }
 
-/* Takes one more than the least distance of those neighbours of block i that come before it in the
- * order of memory (`way` -1) or after it (1). */
-static void relax(const plr_blocks *blocks, const uint32_t at[3], size_t i, int way,
-                  uint8_t *distances) {
-    const ptrdiff_t width = blocks->size[0], layer = width * (ptrdiff_t)blocks->size[1];
-    uint8_t least = distances[i];
-    for (int k = 0; k < 13; k++) {
-        /* the 13 neighbours before the middle one of 27 */
-        int d[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
-        bool outside = false;
-        for (int axis = 0; axis < 3; axis++) {
-            d[axis] *= -way; /* way -1: as they are */
-            int64_t place = (int64_t)at[axis] + d[axis];
-            outside = outside || place < 0 || place >= (int64_t)blocks->size[axis];
+/* ---- Leaps ---- */
+
+/* Into a row of cubes the least of the rows beside it that are farther along y, z, or both. */
+static void spread_row(const uint8_t *cubes, const ptrdiff_t steps[2], const bool inside[2],
+                       size_t width, uint8_t *least) {
+    const ptrdiff_t others[3] = {steps[0], steps[1], steps[0] + steps[1]};
+    const bool known[3] = {inside[0], inside[1], inside[0] && inside[1]};
+    memset(least, UINT8_MAX, width);
+    for (int k = 0; k < 3; k++)
+        for (size_t x = 0; known[k] && x < width; x++) {
+            uint8_t other = cubes[others[k] + (ptrdiff_t)x];
+            least[x] = other < least[x] ? other : least[x];
         }
-        if (outside)
-            continue;
-        uint8_t distance = distances[(ptrdiff_t)i + d[0] + d[1] * width + d[2] * layer];
-        if (distance < least)
-            least = (uint8_t)(distance + 1) < least ? (uint8_t)(distance + 1) : least;
-    }
-    distances[i] = least;
 }
 
-void plr_blocks_distances(const plr_blocks *blocks, const bool *full, uint8_t *distances) {
-    size_t count = plr_blocks_count(blocks);
-    for (size_t i = 0; i < count; i++)
-        distances[i] = full[i] ? 0 : 255;
-    /* steps to all neighbours cost the same: two sweeps find Chebyshev's distance exactly
-     * (Rosenfeld, Pfaltz 1968) */
-    for (int way = -1; way <= 1; way += 2)
-        for (size_t n = 0; n < count; n++) {
-            size_t i = way < 0 ? n : count - 1 - n;
-            const uint32_t at[3] = {(uint32_t)(i % blocks->size[0]),
-                                    (uint32_t)(i / blocks->size[0] % blocks->size[1]),
-                                    (uint32_t)(i / blocks->size[0] / blocks->size[1])};
-            if (distances[i] > 1)
-                relax(blocks, at, i, way, distances);
+/* The side of the greatest clear cube that a block is the first corner of, for a row: one more than
+ * the least of those of its seven neighbours that lie farther in the octant. */
+static void grow_row(const bool *full, const uint8_t *least, bool upwards, size_t width,
+                     uint8_t *cubes) {
+    uint8_t behind = UINT8_MAX, corner = UINT8_MAX;
+    for (size_t n = 0; n < width; n++) {
+        size_t x = upwards ? width - 1 - n : n;
+        uint8_t found = least[x] < corner ? least[x] : corner;
+        found = behind < found ? behind : found;
+        found = found < UINT8_MAX ? found + 1 : found;
+        behind = cubes[x] = full[x] ? 0 : found;
+        corner = least[x];
+    }
+}
+
+static void find_cubes(const plr_blocks *blocks, const bool *full, int octant, uint8_t *least,
+                       uint8_t *cubes) {
+    const size_t width = blocks->size[0], height = blocks->size[1], depth = blocks->size[2];
+    const bool upwards[3] = {!(octant & 1), !(octant & 2), !(octant & 4)};
+    const ptrdiff_t layer = (ptrdiff_t)(width * height);
+    const ptrdiff_t steps[2] = {upwards[1] ? (ptrdiff_t)width : -(ptrdiff_t)width,
+                                upwards[2] ? layer : -layer};
+    for (size_t k = 0; k < depth; k++)
+        for (size_t j = 0; j < height; j++) {
+            size_t y = upwards[1] ? height - 1 - j : j, z = upwards[2] ? depth - 1 - k : k;
+            size_t first = width * (y + height * z);
+            const bool inside[2] = {j > 0, k > 0};
+            spread_row(cubes + first, steps, inside, width, least);
+            grow_row(full + first, least, upwards[0], width, cubes + first);
         }
+}
+
+/* In 4 bits: numbers up to 10 as they are, then every eighth (leap_at in
+ * effects/volume/leaps.glsl). */
+static uint32_t encode(uint8_t side) {
+    enum {
+        EXACT = 10,
+        COARSE = 8,
+        MOST = 15
+    };
+    uint32_t code = side;
+    if (code > EXACT)
+        code = EXACT + (code - EXACT) / COARSE;
+    return code < MOST ? code : MOST;
+}
+
+bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps) {
+    enum {
+        OCTANTS = 8,
+        BITS = 4
+    };
+    size_t count = plr_blocks_count(blocks);
+    uint8_t *cubes = malloc(count + blocks->size[0]);
+    if (!cubes)
+        return false;
+    memset(leaps, 0, count * sizeof *leaps);
+    for (int octant = 0; octant < OCTANTS; octant++) {
+        find_cubes(blocks, full, octant, cubes + count, cubes);
+        for (size_t i = 0; i < count; i++)
+            leaps[i] |= encode(cubes[i]) << (BITS * octant);
+    }
+    free(cubes);
+    return true;
 }

@@ -24,9 +24,12 @@ typedef struct plr_blocks {
 plr_blocks *plr_blocks_make(plr_arena *arena, const plr_image *image);
 /* Labels of the same voxels. */
 void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image *image);
-/* How many blocks, in any direction, diagonals included, it is from each block to the next that is
- * `full` (one flag a block): 0 of these themselves; at most 255. */
-void plr_blocks_distances(const plr_blocks *blocks, const bool *full, uint8_t *distances);
+/* For each block eight numbers of 4 bits: how many blocks a side, itself at a corner, the greatest
+ * cube has in which none is `full` (one flag a block), for each octant of directions that it may
+ * extend to: 1, 2 and 4 of its number are set where it goes down along x, y and z. What is outside
+ * is not full. Codes above 10 stand for 18, 26, ... 50 blocks, or a few more. False: out of memory.
+ */
+bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps);
 size_t plr_blocks_count(const plr_blocks *blocks);
 
 #endif

@@ -111,21 +111,20 @@ plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
                        .height = blocks->size[1],
                        .depth = blocks->size[2],
                        .components = 1,
-                       .type = PLR_UINT8};
+                       .type = PLR_UINT32};
     bool *full = malloc(count * sizeof *full);
-    image.samples = malloc(count);
-    if (!full || !image.samples) {
-        free(full);
-        free(image.samples);
-        longjmp(*view->arena.out_of_memory, 1);
-    }
+    image.samples = malloc(count * sizeof(uint32_t));
     state->full_blocks = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; full && i < count; i++) {
         full[i] = sees(user, i);
         state->full_blocks += full[i];
     }
-    plr_blocks_distances(blocks, full, image.samples);
+    bool made = full && image.samples && plr_blocks_leaps(blocks, full, image.samples);
     free(full);
+    if (!made) {
+        free(image.samples);
+        longjmp(*view->arena.out_of_memory, 1);
+    }
     return plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D_LABELS, false);
 }
 
