@@ -415,20 +415,23 @@ void main() {
         int steps = step_count(t_next - t, step_length);
 #endif
         int i = 0, behind = BEHIND;
-#if LEAPS
-        while (i < steps) {
-            float at = t + float(i) * step_length;
-            int leap = steps - i;
-            /* PLUG: volume_leap (at, step_length, leap) */
-#if PLUG_USED(volume_join)
-            leap = i + leap < steps ? leap & -JOINED : leap;
-#endif
-            if (leap == 0)
-                break;
-            i += leap;
-        }
-#endif
         while (i < steps && !ended) {
+#if LEAPS
+            while (i < steps) {
+                float at = t + float(i) * step_length;
+                int leap = steps - i;
+                /* PLUG: volume_leap (at, step_length, leap) */
+#if PLUG_USED(volume_join)
+                leap = i + leap < steps ? leap & -JOINED : leap;
+#endif
+                if (leap == 0)
+                    break;
+                behind = BEHIND;
+                i += leap;
+            }
+            if (i >= steps)
+                break;
+#endif
             /* most segments cannot be seen: that is found out first for some, at the least cost */
             int first = i - behind;
             uint visible = 0u;
@@ -493,20 +496,6 @@ void main() {
                 }
 #endif
             }
-#if LEAPS
-            while (i < steps) {
-                float at = t + float(i) * step_length;
-                int leap = steps - i;
-                /* PLUG: volume_leap (at, step_length, leap) */
-#if PLUG_USED(volume_join)
-                leap = i + leap < steps ? leap & -JOINED : leap;
-#endif
-                if (leap == 0)
-                    break;
-                behind = BEHIND;
-                i += leap;
-            }
-#endif
         }
 #endif
 #if MIXES

@@ -37,8 +37,8 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
     float blocks = leap_at(cell_origin + t * cell_direction, corner);
     vec3 ends = (corner - cell_origin) * cell_inverse;
     float end = min(min(ends.x, ends.y), ends.z);
-    int whole = int(min((end - t) / step_length - 1.0e-3, 1.0e6));
-    steps = min(steps, blocks > 0.0 ? max(whole, 0) : 0);
+    float whole = (end - t) * (1.0 / step_length) - 1.0e-3;
+    steps = blocks > 0.0 ? int(clamp(whole, 0.0, float(steps))) : 0;
 }
 #endif
 
