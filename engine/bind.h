@@ -95,6 +95,7 @@ typedef struct plr_volume_state {
     plr_texture *ranges;    /* bounds of it */
     float seen[2];          /* outside of this open interval the table has nothing */
     size_t full_blocks;     /* where it does */
+    double mean_leap;       /* in voxels, of a side; 0 where something can be seen */
     plr_texture *leaps;
 } plr_volume_state;
 

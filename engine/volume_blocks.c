@@ -192,21 +192,28 @@ static uint32_t encode(uint8_t side) {
     return code < MOST ? code : MOST;
 }
 
-bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps) {
+bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps, double *mean) {
     enum {
         OCTANTS = 8,
         BITS = 4
     };
     size_t count = plr_blocks_count(blocks);
+    uint32_t longest = blocks->size[0];
+    for (int axis = 1; axis < 3; axis++)
+        longest = blocks->size[axis] > longest ? blocks->size[axis] : longest;
     uint8_t *cubes = malloc(count + blocks->size[0]);
     if (!cubes)
         return false;
     memset(leaps, 0, count * sizeof *leaps);
+    double sum = 0;
     for (int octant = 0; octant < OCTANTS; octant++) {
         find_cubes(blocks, full, octant, cubes + count, cubes);
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < count; i++) {
             leaps[i] |= encode(cubes[i]) << (BITS * octant);
+            sum += cubes[i] < longest ? cubes[i] : longest;
+        }
     }
     free(cubes);
+    *mean = sum / ((double)count * OCTANTS);
     return true;
 }

@@ -1,4 +1,5 @@
 /* The plan of a cast in words: each choice, why, what it costs and what bound it gives. */
+#include <math.h>
 #include <string.h>
 
 #include "engine/light_strength.h"
@@ -37,7 +38,23 @@ static plr_choice say_skips(const plr_view *view, const plr_cast *cast, bool ear
                                   "and nobody asks for single samples"};
 }
 
+static plr_choice say_short_leaps(plr_view *view, const plr_cast *cast, bool early_end) {
+    double mean = 0;
+    for (size_t i = 0; i < cast->count; i++)
+        mean = fmax(mean, view->volumes.volumes[cast->members[i]].mean_leap);
+    bool samples =
+        cast->plan.method == PLR_METHOD_MIDPOINT && plr_cast_skips(view, cast, early_end);
+    return (plr_choice){
+        "skipping", samples ? "of clear samples" : "none",
+        plr_arena_format(&view->arena,
+                         "leaps over blocks would be of %.2g voxels in the mean, 0 where something "
+                         "can be seen: to look for them would cost more than they save",
+                         mean)};
+}
+
 static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end) {
+    if (cast->short_leaps)
+        return say_short_leaps(view, cast, early_end);
     if (!cast->plan.leaps)
         return say_skips(view, cast, early_end);
     size_t full = 0, all = 0;

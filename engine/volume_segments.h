@@ -20,7 +20,7 @@ bool plr_volume_find_segments(plr_view *view, plr_volume_state *state);
  * `gentle`: as if it were not. */
 plr_table *plr_volume_make_table(plr_view *view, const plr_volume_state *state,
                                  const plr_function *function, bool in_stack, bool gentle);
-/* Distances between the blocks where something can be seen; `sees` NULL: of its table. */
+/* How far rays leap over blocks where nothing can be seen; `sees` NULL: of its table. */
 plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
                                    bool (*sees)(const void *, size_t), const void *user);
 

@@ -1,6 +1,7 @@
 /* Leaps through blocks: in each octant of directions as far as all is clear, and no farther. */
 #include "tests/tap.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -47,6 +48,29 @@ static bool is_clear(const blocks *b, const int at[3], int octant, int side) {
 /* What codes stand for; the one behind the last leads on for ever. */
 static const int sides[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 18, 26, 34, 42, 50};
 
+/* The mean side of clear cubes, one by one. */
+static double find_mean(const blocks *b) {
+    int longest = 0;
+    double sum = 0;
+    enum {
+        GREATEST = 255
+    };
+    for (int axis = 0; axis < 3; axis++)
+        longest = (int)b->shape.size[axis] > longest ? (int)b->shape.size[axis] : longest;
+    longest = longest < GREATEST ? longest : GREATEST;
+    for (int z = 0; z < (int)b->shape.size[2]; z++)
+        for (int y = 0; y < (int)b->shape.size[1]; y++)
+            for (int x = 0; x < (int)b->shape.size[0]; x++)
+                for (int octant = 0; octant < 8; octant++) {
+                    const int at[3] = {x, y, z};
+                    int side = 0;
+                    while (side < longest && is_clear(b, at, octant, side + 1))
+                        side++;
+                    sum += side;
+                }
+    return sum / 8 / (double)plr_blocks_count(&b->shape);
+}
+
 /* How many codes of all blocks and octants lead into what is full, or less far than they could. */
 static size_t count_wrong(const blocks *b) {
     size_t wrong = 0;
@@ -70,11 +94,13 @@ static void check(const char *name, uint32_t x, uint32_t y, uint32_t z, unsigned
         state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         b.full[i] = one_of && (state >> 33) % one_of == 0;
     }
-    bool made = plr_blocks_leaps(&b.shape, b.full, b.leaps);
+    double mean = -1;
+    bool made = plr_blocks_leaps(&b.shape, b.full, b.leaps, &mean);
     size_t wrong = made ? count_wrong(&b) : 1;
     TAP_RESULT(made && wrong == 0, "%s", name);
     if (wrong)
         printf("#   %zu wrong\n", wrong);
+    CHECK_NEAR(mean, find_mean(&b), 1e-9);
 }
 
 int main(void) {

@@ -154,6 +154,23 @@ def far():
             suite.check(f"{method}, {name}: all of them are seen", max(found[3::4]) > 0.2, max(found[3::4]))
 
 
+@suite.case
+def short():
+    "where leaps would be short, measured in steps, nobody leaps"
+    dice, side = random.Random(6), 20
+    for part, expected in ((0.1, (False, False, False)), (0.008, (True, False, True))):
+        data = voxels(1, (side,) * 3, (255 if dice.random() < part else 0 for _ in range(side ** 3)))
+        text = front_scene(volume(data, opacity_map([0, 0, 0xFF800018])))
+        for method, leaps in zip(("midpoint", "preintegrated", "cells"), expected):
+            for step in (0.5, 0.02):
+                if method == "cells" and step != 0.5:
+                    continue
+                how = ("--method", method) if method == "cells" else ("--method", method, "--step", str(step))
+                result = suite.render(text, "-o", "picture.npy", *how, "--stats", "json")
+                suite.equal(f"{100 * part} % of voxels, {method}, step {step}", load_json(result.output)["plan"]["leaps"],
+                            leaps or step < 0.5)
+
+
 def program(*parts):
     result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": front_scene(*parts)})
     folder = os.path.join(result.folder, "out")
