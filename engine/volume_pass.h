@@ -103,6 +103,8 @@ void plr_volume_add_planes(plr_view *view, plr_recipe *recipe, size_t volume, si
 
 /* Whether a style asks for shadows; `general`: or would, with lighting. */
 bool plr_style_has_shadows(const plr_node *style, bool general);
+/* Whether some style of a volume would, were everything on. */
+bool plr_volumes_have_shadows(const plr_view *view);
 /* Finds which volumes cast some. */
 void plr_volume_find_shadows(plr_view *view, plr_diags *diags);
 /* Whether colours of what is transparent matter to nothing in the volume. */

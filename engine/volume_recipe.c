@@ -42,6 +42,8 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
     bool joins = segments && !cells && cast->count == 1 &&
                  (state->general || plr_table_joins(state->table, state->step / state->reference,
                                                     state->step / state->voxel));
+    /* where they look twice, rays of light would be walked twice, too; a switch changes nothing */
+    bool turns = segments && !cells && state->styled && !plr_volumes_have_shadows(view);
     const plr_define defines[] = {
         {"voxels_COMPONENTS",
          plr_arena_format(&view->arena, "%u", state->grid->voxels->components)},
@@ -52,6 +54,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_GRADIENTS", segments && plr_volume_can_derive(state) ? "1" : "0"},
         {"HAS_QUADS", quads ? "1" : "0"},
         {"JOINS", joins ? "1" : "0"},
+        {"TURNS", turns ? "1" : "0"},
         {"GENTLE", segments && state->table->gentle ? "1" : "0"},
         {"CLIPS", segments && state->table->clips ? "1" : "0"},
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};

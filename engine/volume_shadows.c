@@ -60,6 +60,13 @@ static bool any_style_of(const plr_volume_state *state, bool (*is)(const plr_nod
     return false;
 }
 
+bool plr_volumes_have_shadows(const plr_view *view) {
+    bool any = false;
+    for (size_t i = 0; i < view->volumes.count && !any; i++)
+        any = any_style_of(&view->volumes.volumes[i], plr_style_has_shadows, true);
+    return any;
+}
+
 /* A projection is no matter that light could meet. */
 static bool casts(const plr_volume_state *state, plr_diags *diags) {
     if (state->kind == PLR_VOLUME_PROJECTED ||

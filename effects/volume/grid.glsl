@@ -88,17 +88,30 @@ vec4 voxel_color(const in vec4 value) {
 #endif
 }
 
-/* What the grid has at a place of the box, in texture coordinates. */
-void grid_sample(inout VolumeSample s, const in vec3 position) {
-    s.value = voxel_at(position);
 #if READS(normal_eye) || READS(gradient)
-    vec3 gradient = gradient_at(position);
+#if defined(TURNS) && TURNS
+vec3 sampled_gradient; /* that of the last sample */
 #endif
+
+void set_gradient(inout VolumeSample s, const in vec3 gradient) {
 #if READS(gradient)
     s.gradient = length(gradient);
 #endif
 #if READS(normal_eye)
     s.normal_eye = normal_of_gradient(gradient, mat3(eyeToLocal));
+#endif
+}
+#endif
+
+/* What the grid has at a place of the box, in texture coordinates. */
+void grid_sample(inout VolumeSample s, const in vec3 position) {
+    s.value = voxel_at(position);
+#if READS(normal_eye) || READS(gradient)
+    vec3 gradient = gradient_at(position);
+    set_gradient(s, gradient);
+#if defined(TURNS) && TURNS
+    sampled_gradient = gradient;
+#endif
 #endif
 }
 

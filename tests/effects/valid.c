@@ -318,9 +318,15 @@ static const plr_define two_in_cells[] = CUT("1", "1", "1", "1");
 static const plr_define tabled[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"BRICKED", "0"},   {"PROJECTS", "0"},
     {"HAS_WALL", "0"},          {"JOINS", "1"},      {"HAS_QUADS", "0"}, {"CLIPS", "0"}};
-static const plr_define holding[] = {
-    {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"},    {"BRICKED", "0"}, {"PROJECTS", "0"},
-    {"HAS_WALL", "0"},          {"HAS_GRADIENTS", "1"}, {"JOINS", "1"},   {"HAS_QUADS", "1"}};
+static const plr_define holding[] = {{"voxels_COMPONENTS", "1"},
+                                     {"HAS_LABELS", "0"},
+                                     {"BRICKED", "0"},
+                                     {"PROJECTS", "0"},
+                                     {"HAS_WALL", "0"},
+                                     {"HAS_GRADIENTS", "1"},
+                                     {"JOINS", "1"},
+                                     {"HAS_QUADS", "1"},
+                                     {"TURNS", "1"}};
 static const plr_define walled[] = {{"voxels_COMPONENTS", "1"},
                                     {"HAS_LABELS", "0"},
                                     {"BRICKED", "0"},

@@ -146,7 +146,7 @@ static void test_mirror(plr_engine *engine) {
     CHECK(plr_view_draw(view, &wide, &first, NULL));
     CHECK(plan_of(view).step < 0.5);
     plr_scene *other = plr_scene_parse(mirrored_text, strlen(mirrored_text), "m", NULL, NULL);
-    const plr_view_desc fixed = {.step = plan_of(view).step};
+    const plr_view_desc fixed = {.step = plan_of(view).step, .method = plan_of(view).method};
     plr_view *by_step = plr_view_create(engine, other, &fixed, NULL);
     CHECK(plr_view_draw(by_step, &wide, &again, NULL));
     double most = 0; /* rays end early at an eighth of the error each */

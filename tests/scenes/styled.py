@@ -2,6 +2,7 @@
 """Volumes in segments whose styles only change what a transfer function makes visible: the picture is that of
 fine steps, and sooner than by samples in the middle."""
 
+import math
 import operator
 import os
 import random
@@ -109,6 +110,22 @@ def promised():
                                                    'language "GLSL"'))],
                    "--step", 0.5, "--method", "preintegrated")
     suite.check("so they are where it may change the opacity", told["plan"]["method"] == "midpoint", told["plan"])
+
+
+@suite.case
+def highlights():
+    "highlights bend within segments: styles see their normals turn"
+    data = voxels(1, (SIDE, SIDE, SIDE), [
+        round(127.5 + 127.5 * math.sin(1.1 * i + 0.4 * j) * math.cos(0.8 * j - 0.7 * k))
+        for k in range(SIDE) for j in range(SIDE) for i in range(SIDE)])
+    shining = LIGHTING.replace("0.3 + 0.7 * abs(s.normal_eye.z)", "pow(abs(s.normal_eye.z), 20.0)")
+    wide = "OpacityMapVolumeStyle { transferFunction PixelTexture { image 3 1 4 0xffffff00 0xffffffc0 0xffffff00 } }"
+    node = effect(shining, 'language "GLSL"')
+    parts = (f"VolumeData {{ dimensions 1 1.2 0.9 voxels {data} renderStyle {wide} effects {node} }}\n",)
+    truth = draw(parts, "--step", TRUTH)[0]
+    found = [error(draw(parts, "--step", step, "--method", "preintegrated")[0], truth)[0] for step in (0.5, 0.25)]
+    suite.check("half a voxel errs by less than 0.002", found[0] < 0.002, found)
+    suite.check("a quarter by less than 0.0005", found[1] < 0.0005, found)
 
 
 @suite.case
