@@ -198,12 +198,12 @@ def planned():
 @suite.case
 def leaps():
     "blocks of hidden segments are leapt over, others never: to the bit"
-    size, count = (23, 17, 19), 23 * 17 * 19
+    size, count = (46, 34, 19), 46 * 34 * 19
     data = voxels(1, size, ((i * i * 7 + i // 5) % 256 for i in range(count)))
-    regions = [min(i % 23 // 6, 2) + 64 * (i // 23 % 17 > 11) for i in range(count)]
+    regions = [min(i % 46 // 12, 2) + 64 * (i // 46 % 34 > 23) for i in range(count)]
     maps = [one_color((0x20 + 2 * i) << 24 | (0x9F - i) << 16 | 0x40) for i in range(67)]
     view = ("OrthoViewpoint { position 3 2 9 orientation -.6 .8 0 .4 fieldOfView -1 -1 1 1 }\n", NO_HEADLIGHT)
-    for hidden in ((1, 64), (0, 1, 2), (0, 1, 2, *range(63, 67))):
+    for hidden in ((1, 2, 64), (0, 1, 2), (0, 1, 2, *range(63, 67))):
         enabled = " ".join("FALSE" if i in hidden else "TRUE" for i in range(67))
         text = scene(*view, segmented(maps, voxels(1, size, regions), f"segmentEnabled [ {enabled} ]", data))
         pictures = [suite.picture(text, *o, "--size", "32x32").values for o in ((), ("--no-leaping",))]
