@@ -156,15 +156,22 @@ static jumps jumps_of(const plr_rates *r, const float *steep) {
     return (jumps){most * plr_rates_length(rim), most * plr_rates_length(all)};
 }
 
-/* Jumps within count as many as can be in each step, or one by one. */
+/* Jumps count as many as can be in each step, or one by one. */
 static integral integrate_all(const plr_rates *r, const plr_rate *rate, const float *extinction,
                               double weight) {
     jumps j = jumps_of(r, rate->steep);
-    integral whole = integrate(r, rate->whole, extinction, weight);
-    integral even = integrate(r, rate->even, extinction, weight);
-    whole.a += j.rim;
-    even.a += j.all;
-    return whole.a + weight * whole.b < even.a + weight * even.b ? whole : even;
+    const struct {
+        const float *rate;
+        double more;
+    } ways[] = {{rate->even, j.all}, {rate->whole, j.rim}, {rate->full, 0}};
+    integral best = {INFINITY, 0};
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        integral found = integrate(r, ways[i].rate, extinction, weight);
+        found.a += ways[i].more;
+        if (found.a + weight * found.b < best.a + weight * best.b)
+            best = found;
+    }
+    return best;
 }
 
 /* ---- All ---- */
@@ -202,7 +209,6 @@ typedef struct state {
     bool walls[MOST_VOLUMES]; /* opaque for all values */
     size_t count;
     plr_rates_all all;
-    double steps; /* optical depth from the middle of a step to its end: how wrong */
 } state;
 
 static bool add(state *s, const plr_certain *v, double step) {
@@ -229,7 +235,6 @@ static bool add(state *s, const plr_certain *v, double step) {
     const plr_curve *tau = r->curves[PLR_CHANNELS];
     s->all.most += plr_curve_between(tau, v->bends->low, v->bends->high).high;
     s->all.strays += r->strays;
-    s->steps += r->strays * step / 2;
     return true;
 }
 
@@ -262,9 +267,16 @@ static double seen_from(const state *s, const plr_rates *r, bool middle) {
     return middle ? 1 : 1 + depth; /* x / (1 - exp(-x)) is below */
 }
 
+/* Optical depths differ by a + b m at most, m the least that there can be along the ray: what
+ * shines through by exp(-m) times that. */
+static double hidden_of(integral optical) {
+    double a = optical.a, b = optical.b;
+    return fmin(a < b ? b * exp(a / b - 1) : a, 1);
+}
+
 static double error_of(state *s) {
-    integral optical = {0, 0};
-    double share = 0, rest[PLR_CHANNELS] = {0, 0, 0}, worst;
+    integral seen = {0, 0}, through = {0, 0};
+    double rest[PLR_CHANNELS] = {0, 0, 0}, worst;
     for (size_t i = 0; i < s->count; i++) {
         plr_rates *r = &s->rates[i];
         for (int k = 0; s->walls[i] && k < PLR_CHANNELS; k++)
@@ -274,9 +286,11 @@ static double error_of(state *s) {
         plr_rates_fill(r, &s->all);
         double middle = seen_from(s, r, true), start = seen_from(s, r, false);
         integral o = integrate_all(r, &r->optical, r->least, middle);
-        optical.a += o.a;
-        optical.b += middle * o.b;
-        share = fmax(share, o.b);
+        seen.a += o.a;
+        seen.b += middle * o.b;
+        o = integrate_all(r, &r->optical, r->least, 1 / EULER);
+        through.a += o.a;
+        through.b = fmax(through.b, o.b);
         for (int k = 0; k < PLR_CHANNELS; k++) {
             integral odd = integrate(r, r->odd[k], r->least, start);
             integral c = {0, 0};
@@ -285,17 +299,14 @@ static double error_of(state *s) {
             rest[k] += odd.a + start * odd.b + c.a + start * c.b;
         }
     }
-    /* Optical depths x, and x' as steps have it, differ by a + b x' at most, so transparency by
-     * exp(a - (1 - b) x') (a + b x'), and x' exp(-(1 - b) x') is below 1 / (e (1 - b)). */
-    double hidden = share < 1 ? exp(optical.a) * (optical.a + share / (EULER * (1 - share))) : 1;
-    double through = share < 1 ? exp(s->steps) * hidden : INFINITY, seen = optical.a + optical.b;
+    double hidden = hidden_of(through), all = seen.a + seen.b;
     worst = hidden;
     /* |c - B| is at most `high`; or else, t what shines through all behind, at most half of the
      * range of colours times 2 - t, and their middle times t */
     for (int k = 0; s->count && k < PLR_CHANNELS; k++) {
         double middle = (s->all.low[k] + s->all.high[k]) / 2, wide = s->all.high[k] - s->all.low[k];
-        double mixed = middle * through + wide * seen;
-        worst = fmax(worst, fmin(mixed, s->all.high[k] * seen) + rest[k]);
+        double mixed = middle * hidden + wide * all;
+        worst = fmax(worst, fmin(mixed, s->all.high[k] * all) + rest[k]);
     }
     return worst;
 }

@@ -73,11 +73,22 @@ static double faces_in(double step, double apart) {
     return sum;
 }
 
-/* As many faces as can be in a step. */
-static double jumps_of(const plr_rates *r, const double faces[3], size_t i) {
+/* Whether steps that have to do with a block may reach the first or the last voxels of an axis. */
+static bool is_at_end(const plr_rates *r, size_t i, int axis) {
+    size_t across = axis == 0 ? 1 : axis == 1 ? r->blocks[0] : (size_t)r->blocks[0] * r->blocks[1];
+    size_t at = i / across % r->blocks[axis];
+    return at <= r->around[axis] || at + r->around[axis] + 1 >= r->blocks[axis];
+}
+
+/* As many faces as can be in a step. Beyond the outermost voxels values stay the same: there all of
+ * the slope is a jump. */
+static double jumps_of(const plr_rates *r, const double faces[3], size_t i, bool ends) {
     double each[3];
-    for (int k = 0; k < 3; k++)
-        each[k] = (double)r->found[PLR_BEND_JUMP + k][i] / r->v->voxel[k] * faces[k];
+    for (int k = 0; k < 3; k++) {
+        float jump = r->found[PLR_BEND_JUMP + k][i], slope = r->found[PLR_BEND_SLOPE + k][i];
+        jump = ends && is_at_end(r, i, k) ? fmaxf(jump, slope) : jump;
+        each[k] = (double)jump / r->v->voxel[k] * faces[k];
+    }
     return plr_rates_length(each);
 }
 
@@ -96,7 +107,8 @@ static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_
                              .high = (double)r->found[PLR_BEND_HEIGHT][i],
                              .slope = plr_rates_length(slope),
                              .even = second * r->step * r->step / 24,
-                             .jumps = jumps_of(r, faces, i)};
+                             .jumps = jumps_of(r, faces, i, false),
+                             .ends = jumps_of(r, faces, i, true)};
 }
 
 static void know_blocks(plr_rates *r) {
@@ -112,9 +124,9 @@ static void know_blocks(plr_rates *r) {
 /* In a step that a block has to do with. */
 typedef struct change {
     double low, high;
-    double steepest;    /* by values */
-    double rise;        /* per unit of length */
-    double even, whole; /* mean of f - f(m), at most, without jumps and with them */
+    double steepest; /* by values */
+    double rise;     /* per unit of length */
+    double mean[3];  /* of f - f(m), at most, without jumps, with them, and with all */
 } change;
 
 static change change_of(const plr_curve *c, const plr_rates_block *b, double step) {
@@ -124,17 +136,20 @@ static change change_of(const plr_curve *c, const plr_rates_block *b, double ste
         double bend = plr_curve_bend(c, b->low, b->high, b->slope * step / 2);
         turns = fmin(turns, 2 * bend / (b->slope * step));
     }
-    return (change){.low = part.low,
+    change found = {.low = part.low,
                     .high = part.high,
                     .steepest = part.steepest,
-                    .rise = part.steepest * b->slope,
-                    .even = fmin(part.steepest * (b->even + ROUNDED) + turns, wide),
-                    .whole = fmin(part.steepest * (b->even + b->jumps + ROUNDED) + turns, wide)};
+                    .rise = part.steepest * b->slope};
+    const double jumps[] = {0, b->jumps, b->ends};
+    for (int k = 0; k < 3; k++)
+        found.mean[k] = fmin(part.steepest * (b->even + jumps[k] + ROUNDED) + turns, wide);
+    return found;
 }
 
 static void put(plr_rate *rate, size_t i, const change *c, double more, double times) {
-    rate->even[i] = (float)(times * (c->even + more));
-    rate->whole[i] = (float)(times * (c->whole + more));
+    rate->even[i] = (float)(times * (c->mean[0] + more));
+    rate->whole[i] = (float)(times * (c->mean[1] + more));
+    rate->full[i] = (float)(times * (c->mean[2] + more));
     rate->steep[i] = (float)(times * c->steepest);
 }
 
@@ -162,7 +177,7 @@ bool plr_rates_begin(plr_rates *r, const plr_certain *v, double step) {
     for (int k = 0; k < 3; k++)
         r->blocks[k] = whole ? 1 : b->blocks[k];
     r->count = whole ? 1 : plr_bends_count(b);
-    float **rows[PLR_BENDS + 6 + 4 * PLR_CHANNELS], *spare;
+    float **rows[PLR_BENDS + 7 + 5 * PLR_CHANNELS], *spare;
     size_t used = 0;
     for (int k = 0; k < PLR_BENDS; k++)
         rows[used++] = &r->found[k];
@@ -173,6 +188,7 @@ bool plr_rates_begin(plr_rates *r, const plr_certain *v, double step) {
         plr_rate *rate = k < PLR_CHANNELS ? &r->colors[k] : &r->optical;
         rows[used++] = &rate->even;
         rows[used++] = &rate->whole;
+        rows[used++] = &rate->full;
         rows[used++] = &rate->steep;
         if (k < PLR_CHANNELS)
             rows[used++] = &r->odd[k];

@@ -22,13 +22,15 @@ typedef struct plr_rates_block {
     double low, high; /* values */
     double slope;     /* of values */
     double even;      /* mean of values less the sample's, at most, but for jumps of the slope */
-    double jumps;     /* what these add */
+    double jumps;     /* what these add, but at the outermost voxels */
+    double ends;      /* and there, too */
 } plr_rates_block;
 
 /* Along rays, of a function of the value. Rates are per unit of length, for each block. */
 typedef struct plr_rate {
     float *even;  /* without jumps of the slope of values from cell to cell */
-    float *whole; /* with them */
+    float *whole; /* with them, but for those at the outermost voxels */
+    float *full;  /* with these, too */
     float *steep; /* the greatest slope of the function, to which jumps are in proportion */
 } plr_rate;
 
