@@ -61,6 +61,8 @@ static void run_once(void *user) {
     gl->UseProgram(cast->pass.built->name);
     plr_hull hull;
     plr_volume_hull(pass->volumes, cast->members, cast->everywhere ? 0 : cast->count, frame, &hull);
+    if (!hull.count)
+        return;
     plr_values values = {.hull = &hull,
                          .error = cast->allowed,
                          .frame = frame,

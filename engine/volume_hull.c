@@ -36,6 +36,10 @@ static size_t add_side(const point *points, size_t count, bool back, point *hull
     return size - 1; /* the last point begins the other side */
 }
 
+static bool is_clear(const plr_volume_state *volume) {
+    return !(volume->visible[0][0] < volume->visible[1][0]);
+}
+
 static bool add_box(const plr_volume_state *volume, const plr_frame *frame, point *points,
                     size_t *count) {
     float low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
@@ -47,8 +51,8 @@ static bool add_box(const plr_volume_state *volume, const plr_frame *frame, poin
     for (int corner = 0; corner < CORNERS; corner++) {
         double p[3], q[4];
         for (int axis = 0; axis < 3; axis++) {
-            double end =
-                corner >> axis & 1 ? fmin((double)high[axis], 1) : fmax((double)low[axis], 0);
+            double end = corner >> axis & 1 ? fmin((double)high[axis], volume->visible[1][axis])
+                                            : fmax((double)low[axis], volume->visible[0][axis]);
             p[axis] = volume->dimensions[axis] * (end - 0.5);
         }
         for (int row = 0; row < 4; row++)
@@ -78,6 +82,8 @@ void plr_volume_hull(const plr_volume_state *volumes, const size_t *members, siz
     point chain[2 * (PLR_MOST_HULL + CORNERS * SPREAD) + 2];
     size_t size = 0;
     for (size_t i = 0; i < count; i++) {
+        if (is_clear(&volumes[members[i]]))
+            continue;
         if (!add_box(&volumes[members[i]], frame, points, &size)) {
             cover_all(hull);
             return;

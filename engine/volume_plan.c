@@ -99,6 +99,26 @@ static bool sees_block(const void *user, size_t block) {
     return plr_table_sees(state->table, (double)range[0], (double)range[1]);
 }
 
+/* Cell c of an axis lies between the centres of voxels c - 1 and c. */
+static void add_visible(plr_volume_state *state, size_t block) {
+    const plr_blocks *blocks = state->blocks;
+    for (int axis = 0; axis < 3; axis++) {
+        double cell = (double)(block % blocks->size[axis] * blocks->cells) - 0.5;
+        block /= blocks->size[axis];
+        double low = fmax(cell / state->grid->size[axis], 0);
+        double high = fmin((cell + blocks->cells) / state->grid->size[axis], 1);
+        state->visible[0][axis] = fmin(state->visible[0][axis], low);
+        state->visible[1][axis] = fmax(state->visible[1][axis], high);
+    }
+}
+
+static void see(plr_volume_state *state, double low, double high) {
+    for (int axis = 0; axis < 3; axis++) {
+        state->visible[0][axis] = low;
+        state->visible[1][axis] = high;
+    }
+}
+
 plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
                                    bool (*sees)(const void *, size_t), const void *user) {
     const plr_blocks *blocks = state->blocks;
@@ -115,9 +135,12 @@ plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
     bool *full = malloc(count * sizeof *full);
     image.samples = malloc(count * sizeof(uint32_t));
     state->full_blocks = 0;
+    see(state, 1, 0);
     for (size_t i = 0; full && i < count; i++) {
         full[i] = sees(user, i);
         state->full_blocks += full[i];
+        if (full[i])
+            add_visible(state, i);
     }
     bool made =
         full && image.samples && plr_blocks_leaps(blocks, full, image.samples, &state->mean_leap);
@@ -406,4 +429,6 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
 
 void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
     choose(view, cast, early_end);
+    for (size_t i = 0; !cast->plan.leaps && i < cast->count; i++)
+        see(&view->volumes.volumes[cast->members[i]], 0, 1);
 }
