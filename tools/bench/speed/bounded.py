@@ -149,8 +149,8 @@ class Tried:
 class Measurement:
     """Draws one case in all ways."""
 
-    def __init__(self, turns, folder, pixels, samples, budget):
-        self.turns, self.folder = turns, folder
+    def __init__(self, turns, folder, pixels, samples, budget, methods=FIXED):
+        self.turns, self.folder, self.methods = turns, folder, methods
         self.pixels, self.samples, self.budget = pixels, samples, budget
         self.picture = os.path.join(folder, "picture.npy")
 
@@ -165,7 +165,7 @@ class Measurement:
         self.turns.scene(os.path.join(self.folder, "scene.x3dv"))
         plans = [self.planned(judge, error) for error in ERRORS]
         most = LIMIT * max(plan.first for plan in plans)
-        fixed = [tried for method in FIXED for tried in self.fixed(judge, method, most)]
+        fixed = [tried for method in self.methods for tried in self.fixed(judge, method, most)]
         return {"name": case.name, "kind": case.kind, "samples": self.samples,
                 "errors": self.costs(plans, fixed)}
 
@@ -252,20 +252,21 @@ class Records:
 class Run:
     """As many cases as there is time for. Raises OSError where the build lacks what it needs."""
 
-    def __init__(self, plugray, work, quick=False, count=RANDOM, seed=1):
+    def __init__(self, plugray, work, quick=False, count=RANDOM, seed=1, errors_alone=False):
         os.makedirs(work, exist_ok=True)
         self.turns = turns.Turns(plugray)
         self.cases = all_cases(plugray, count, seed)
         self.pixels, self.samples, self.budget = (96, 128, 0.1) if quick else (128, 320, 0.2)
-        self.work = work
-        self.records = Records(os.path.join(work, f"bounds-{'quick-' if quick else ''}{key(plugray)}.jsonl"))
+        self.work, self.methods = work, () if errors_alone else FIXED
+        kind = ("quick-" if quick else "") + ("errors-" if errors_alone else "")
+        self.records = Records(os.path.join(work, f"bounds-{kind}{key(plugray)}.jsonl"))
 
     def go(self, minutes, most, only, progress):
         """Measures those that are not known yet."""
         end = time.monotonic() + 60 * minutes if minutes else math.inf
         wanted = [case for case in self.cases[:most] if only in case.name]
         with tempfile.TemporaryDirectory(dir=self.work) as folder:
-            measurement = Measurement(self.turns, folder, self.pixels, self.samples, self.budget)
+            measurement = Measurement(self.turns, folder, self.pixels, self.samples, self.budget, self.methods)
             for case in wanted:
                 if time.monotonic() > end:
                     break
