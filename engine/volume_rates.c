@@ -92,6 +92,17 @@ static double jumps_of(const plr_rates *r, const double faces[3], size_t i, bool
     return plr_rates_length(each);
 }
 
+/* Of the values around only those count that a step from a place in the block can come to. */
+static void narrow(const plr_rates *r, size_t i, double reach, double range[2]) {
+    const float *const *found = r->v->bends->found;
+    range[0] = -(double)r->found[PLR_BEND_DEPTH][i];
+    range[1] = (double)r->found[PLR_BEND_HEIGHT][i];
+    if (r->count == 1)
+        return;
+    range[0] = fmax(range[0], -(double)found[PLR_BEND_DEPTH][i] - reach);
+    range[1] = fmin(range[1], (double)found[PLR_BEND_HEIGHT][i] + reach);
+}
+
 static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_t i) {
     const double *voxel = r->v->voxel;
     double slope[3], twist[3];
@@ -103,9 +114,13 @@ static plr_rates_block block_of(const plr_rates *r, const double faces[3], size_
     /* the second derivative is what a symmetric matrix without a diagonal makes of a direction: its
      * eigenvalues sum up to 0, their squares to the norm's, so none is above sqrt(2/3) of it */
     double second = sqrt(4.0 / 3) * plr_rates_length(twist);
-    return (plr_rates_block){.low = -(double)r->found[PLR_BEND_DEPTH][i],
-                             .high = (double)r->found[PLR_BEND_HEIGHT][i],
-                             .slope = plr_rates_length(slope),
+    double rise = plr_rates_length(slope), range[2], near[2];
+    narrow(r, i, rise * r->step, range);
+    narrow(r, i, rise * r->step / 2, near);
+    return (plr_rates_block){.low = range[0],
+                             .high = range[1],
+                             .near = {near[0], near[1]},
+                             .slope = rise,
                              .even = second * r->step * r->step / 24,
                              .jumps = jumps_of(r, faces, i, false),
                              .ends = jumps_of(r, faces, i, true)};
@@ -225,7 +240,8 @@ void plr_rates_fill(plr_rates *r, const plr_rates_all *all) {
         const plr_rates_block *b = &r->known[i];
         change tau = change_of(r->curves[PLR_CHANNELS], b, h);
         put(&r->optical, i, &tau, 0, 1);
-        r->least[i] = (float)fmax(tau.low, 0);
+        plr_curve_part near = plr_curve_between(r->curves[PLR_CHANNELS], b->near[0], b->near[1]);
+        r->least[i] = (float)fmax(near.low, 0);
         r->most[i] = (float)tau.high;
         for (int k = 0; k < PLR_CHANNELS; k++) {
             change c = {.low = all->low[k], .high = all->low[k]};

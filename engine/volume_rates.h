@@ -20,6 +20,7 @@ typedef struct plr_rates_all {
 /* What is known in a step that has to do with a block. */
 typedef struct plr_rates_block {
     double low, high; /* values */
+    double near[2];   /* those within half a step of a place in the block */
     double slope;     /* of values */
     double even;      /* mean of values less the sample's, at most, but for jumps of the slope */
     double jumps;     /* what these add, but at the outermost voxels */

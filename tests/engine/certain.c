@@ -386,8 +386,8 @@ int main(void) {
         check_cases(together, 1.0 / 64, useful[together - 1]);
         check_cases(together, 1.0 / 1023, useful[together - 1]);
     }
-    check_known(0, "ramp", 80);
-    check_known(1, "exponential", 120);
-    check_known(2, "ball", 220);
+    check_known(0, "ramp", 35);
+    check_known(1, "exponential", 70);
+    check_known(2, "ball", 150);
     return tap_done();
 }
