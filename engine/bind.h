@@ -96,7 +96,7 @@ typedef struct plr_volume_state {
     float seen[2];          /* outside of this open interval the table has nothing */
     size_t full_blocks;     /* where it does */
     double mean_leap;       /* in voxels, of a side; 0 where something can be seen */
-    double visible[2][3];   /* the box of these, 0 to 1; that of all where nothing is leapt over */
+    double visible[2][3];   /* the box of these, 0 to 1; that of all where nothing may be left out */
     plr_texture *leaps;
 } plr_volume_state;
 

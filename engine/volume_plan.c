@@ -429,6 +429,7 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
 
 void plr_cast_plan(plr_view *view, plr_cast *cast, bool early_end) {
     choose(view, cast, early_end);
-    for (size_t i = 0; !cast->plan.leaps && i < cast->count; i++)
+    bool exact = cast->plan.leaps || cast->dense || cast->short_leaps;
+    for (size_t i = 0; !exact && i < cast->count; i++)
         see(&view->volumes.volumes[cast->members[i]], 0, 1);
 }

@@ -606,8 +606,15 @@ double plr_table_density(const plr_table *table) {
     return table->visible ? (double)table->visible[table->nodes - 1] / (table->nodes - 1) : 0;
 }
 
+/* Whatever filters do, 0 everywhere stays 0. */
+static bool is_zero_clear(const plr_table *table) {
+    return !(table->texels[3] > 0);
+}
+
 bool plr_table_sees(const plr_table *table, double low, double high) {
     double last = table->nodes - 1;
+    if (high <= 0 && is_zero_clear(table))
+        return false;
     /* filters round: a little more than the range counts */
     double from = floor(fmin(fmax(low - 1e-5, 0), 1) * last);
     double to = ceil(fmin(fmax(high + 1e-5, 0), 1) * last);
@@ -623,7 +630,8 @@ void plr_table_seen(const plr_table *table, float seen[2]) {
     while (last > 0 && table->visible[last - 1] == table->visible[table->nodes - 1])
         last--;
     bool any = first < last;
-    seen[0] = !any ? INFINITY : first == 0 ? -INFINITY : (float)first / (float)(table->nodes - 1);
+    float least = is_zero_clear(table) ? 0 : -INFINITY;
+    seen[0] = !any ? INFINITY : first == 0 ? least : (float)first / (float)(table->nodes - 1);
     seen[1] = !any                       ? -INFINITY
               : last == table->nodes - 1 ? INFINITY
                                          : (float)last / (float)(table->nodes - 1);

@@ -231,7 +231,7 @@ check(", 0 gradients a step" in text and "is read by" not in text, "and nothing 
 for kind, swing, chosen, expected in (("cells", 0.09, "cells", {"voxelQuads": 2, "sums": 11, "ranges": 1}),
                                       ("midpoint", 0, "midpoint", {"voxels": 1})):
     numbers = [0.3 + swing * (i * 37 % 11) / 2 for i in range(4 ** 3)]
-    result, text = info(scene("dense.nrrd", "OpacityMapVolumeStyle { }"),
+    result, text = info(scene("dense.nrrd", "OpacityMapVolumeStyle { }", "valueRange 0 1"),
                         ("dense.nrrd", nrrd("float", (4, 4, 4), struct.pack("<64f", *numbers))))
     plan = {choice["about"]: choice["chosen"] for choice in result["plan"]}
     check_equal((plan["sampling"], plan["skipping"]), (chosen, "none"), f"{kind}: all can be seen, nobody looks for it")
