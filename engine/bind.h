@@ -98,6 +98,7 @@ typedef struct plr_volume_state {
     double mean_leap;       /* in voxels, of a side; 0 where something can be seen */
     double visible[2][3];   /* the box of these, 0 to 1; that of all where nothing may be left out */
     plr_texture *leaps;
+    bool leaping; /* past samples in the middle of steps, by these */
 } plr_volume_state;
 
 /* A convex outline in the picture. */

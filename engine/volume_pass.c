@@ -175,12 +175,29 @@ static size_t sampler_count(plr_view *view, const plr_cast *cast) {
     return count;
 }
 
+/* As many volumes as there are textures too few do without leaps. */
+static void drop_leaps(plr_view *view, plr_cast *cast, size_t too_many) {
+    cast->plan.leaps = false;
+    for (size_t i = cast->count; i-- > 0;) {
+        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        bool drop = state->leaping && too_many > 0;
+        too_many -= drop;
+        state->leaping = state->leaping && !drop;
+        cast->plan.leaps = cast->plan.leaps || state->leaping;
+    }
+    plr_cast_build_recipe(view, cast, true, NULL);
+}
+
 /* Volumes whose textures do not fit into one program with the others are cast apart. */
 static void split_by_textures(plr_view *view, plr_cast *cast, plr_diags *diags) {
     GLint most = 16; /* what GL 3.3 has at least */
     if (view->engine)
         view->engine->gl.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &most);
     size_t samplers = sampler_count(view, cast);
+    if (samplers > (size_t)most && cast->plan.method == PLR_METHOD_MIDPOINT && cast->plan.leaps) {
+        drop_leaps(view, cast, samplers - (size_t)most);
+        samplers = sampler_count(view, cast);
+    }
     while (samplers > (size_t)most && cast->count > 1) {
         size_t kept = cast->count * (size_t)most / samplers;
         kept = kept < 1 ? 1 : kept < cast->count ? kept : cast->count - 1;

@@ -327,14 +327,16 @@ static bool is_certain(plr_view *view, plr_cast *cast) {
 /* Where something can be seen in so great a part, to look for where costs more than it saves. */
 #define DENSE 0.95
 
-static bool are_blocks_full(const plr_view *view, const plr_cast *cast) {
+static bool are_blocks_full(const plr_volume_state *state) {
+    /* general programs serve whatever can be seen */
+    return !state->general &&
+           (double)state->full_blocks >= DENSE * (double)plr_blocks_count(state->blocks);
+}
+
+static bool are_full(const plr_view *view, const plr_cast *cast) {
     bool full = true;
-    for (size_t i = 0; i < cast->count; i++) {
-        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
-        /* general programs serve whatever can be seen */
-        full = full && !state->general &&
-               (double)state->full_blocks >= DENSE * (double)plr_blocks_count(state->blocks);
-    }
+    for (size_t i = 0; i < cast->count; i++)
+        full = full && are_blocks_full(&view->volumes.volumes[cast->members[i]]);
     return full;
 }
 
@@ -343,28 +345,40 @@ static bool are_blocks_full(const plr_view *view, const plr_cast *cast) {
 static const double worth_a_look[] = {
     [PLR_METHOD_MIDPOINT] = 6, [PLR_METHOD_PREINTEGRATED] = 12, [PLR_METHOD_CELLS] = 3};
 
-static bool are_leaps_short(const plr_view *view, const plr_cast *cast, plr_method method) {
-    double least = worth_a_look[method] * (method == PLR_METHOD_CELLS ? 1 : cast->plan.step);
+static bool are_leaps_short(const plr_cast *cast, const plr_volume_state *state,
+                            plr_method method) {
+    double step = method == PLR_METHOD_CELLS ? 1 : cast->plan.step;
+    return !state->general && state->mean_leap < worth_a_look[method] * step;
+}
+
+static bool are_all_short(const plr_view *view, const plr_cast *cast, plr_method method) {
     bool all = true;
-    for (size_t i = 0; i < cast->count; i++) {
-        const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
-        all = all && !state->general && state->mean_leap < least;
-    }
+    for (size_t i = 0; i < cast->count; i++)
+        all = all && are_leaps_short(cast, &view->volumes.volumes[cast->members[i]], method);
     return all;
 }
 
 /* Whether samples in the middle of steps may be passed over by blocks: where clear ones may be one
- * by one. */
+ * by one. Of several volumes each leaps or does not. */
 static bool can_leap(plr_view *view, plr_cast *cast, bool early_end) {
-    plr_volume_state *state = &view->volumes.volumes[cast->members[0]];
-    if (view->desc.no_leaping || cast->count > 1 || state->general ||
-        !plr_cast_skips(view, cast, early_end) || plr_cast_is_divided(view, cast) ||
-        !(state->table || find_table(view, state, true)))
-        return false;
-    bool full = are_blocks_full(view, cast);
-    cast->dense = full && plr_table_density(state->table) >= DENSE;
-    cast->short_leaps = !full && are_leaps_short(view, cast, PLR_METHOD_MIDPOINT);
-    return !full && !cast->short_leaps;
+    bool may = !view->desc.no_leaping && plr_cast_skips(view, cast, early_end) &&
+               !plr_cast_is_divided(view, cast);
+    bool leaps = false, any_short = false;
+    for (size_t i = 0; i < cast->count; i++) {
+        plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        bool blocks = may && !state->general && plr_volume_keeps_clear(state) &&
+                      (state->table || find_table(view, state, true));
+        if (!blocks)
+            see(state, 0, 1);
+        bool full = blocks && are_blocks_full(state);
+        bool is_short = blocks && !full && are_leaps_short(cast, state, PLR_METHOD_MIDPOINT);
+        state->leaping = blocks && !full && !is_short;
+        leaps = leaps || state->leaping;
+        any_short = any_short || is_short;
+        cast->dense = cast->count == 1 && full && plr_table_density(state->table) >= DENSE;
+    }
+    cast->short_leaps = any_short && !leaps;
+    return leaps;
 }
 
 static void choose(plr_view *view, plr_cast *cast, bool early_end) {
@@ -391,6 +405,7 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
         plan->why =
             "samples in the middle of steps: a volume is not made visible by one transfer function "
             "of one component first of all, or there are too many together, so no bound is known";
+        plan->leaps = can_leap(view, cast, early_end);
         return;
     }
     plan->method = wanted;
@@ -403,9 +418,9 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
         plan->why = "styles change what transfer functions make visible: they look at one place of "
                     "each segment, so no bound is known";
     }
-    cast->dense = !desc->no_leaping && are_blocks_full(view, cast);
+    cast->dense = !desc->no_leaping && are_full(view, cast);
     cast->short_leaps =
-        !desc->no_leaping && !cast->dense && are_leaps_short(view, cast, plan->method);
+        !desc->no_leaping && !cast->dense && are_all_short(view, cast, plan->method);
     plan->leaps = !desc->no_leaping && !cast->dense && !cast->short_leaps;
     if (plan->method != PLR_METHOD_CELLS)
         return;

@@ -58,8 +58,12 @@ static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end
     if (!cast->plan.leaps)
         return say_skips(view, cast, early_end);
     size_t full = 0, all = 0;
+    unsigned cells = 0;
     for (size_t i = 0; i < cast->count; i++) {
         const plr_volume_state *state = &view->volumes.volumes[cast->members[i]];
+        if (cast->plan.method == PLR_METHOD_MIDPOINT && !state->leaping)
+            continue;
+        cells = state->blocks->cells;
         full += state->full_blocks;
         all += plr_blocks_count(state->blocks);
     }
@@ -69,8 +73,7 @@ static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end
             &view->arena,
             "something can be seen in %.0f %% of %zu blocks of %u cells a side; pictures "
             "stay the same to the bit",
-            all ? 100.0 * (double)full / (double)all : 0, all,
-            view->volumes.volumes[cast->members[0]].blocks->cells)};
+            all ? 100.0 * (double)full / (double)all : 0, all, cells)};
 }
 
 static plr_choice say_method(plr_view *view, const plr_plan *plan) {

@@ -38,6 +38,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
     /* segments read bytes so, of one volume, which may be others in general worlds */
     bool quads = segments && plr_volume_has_quads(state) &&
                  (cells || (cast->count == 1 && state->grid->bytes && !state->general));
+    bool leaping = !segments && !cast->picks && cast->plan.leaps && state->leaping;
     /* general programs are told by joinReach */
     bool joins = segments && !cells && cast->count == 1 &&
                  (state->general || plr_table_joins(state->table, state->step / state->reference,
@@ -53,6 +54,7 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"HAS_WALL", segments && (state->general || state->table->walls > 0) ? "1" : "0"},
         {"HAS_GRADIENTS", segments && plr_volume_can_derive(state) ? "1" : "0"},
         {"HAS_QUADS", quads ? "1" : "0"},
+        {"HAS_LEAPS", leaping ? "1" : "0"},
         {"JOINS", joins ? "1" : "0"},
         {"TURNS", turns ? "1" : "0"},
         {"GENTLE", segments && state->table->gentle ? "1" : "0"},
@@ -60,9 +62,9 @@ static size_t add_volume_effect(plr_view *view, plr_recipe *recipe, const plr_vo
         {"PROJECTS", state->kind == PLR_VOLUME_FILLED ? "0" : "1"}};
     plr_define *extra = PLR_NEW_ARRAY(&view->arena, sizeof defines / sizeof *defines, plr_define);
     memcpy(extra, defines, sizeof defines);
-    const char *units = segments                           ? segment_units[cells]
-                        : cast->plan.leaps && !cast->picks ? leaping_units
-                                                           : volume_units[state->kind];
+    const char *units = segments  ? segment_units[cells]
+                        : leaping ? leaping_units
+                                  : volume_units[state->kind];
     return plr_recipe_builtin(&view->kitchen, recipe, units, plr_node_type(state->node),
                               (plr_binding){.node = state->node,
                                             .to_world = state->to_world,
@@ -219,6 +221,7 @@ static void define_loop(plr_view *view, plr_cast *cast, bool early_end) {
         {"LEAPS", cast->plan.leaps && !cast->picks},
         {"HAS_WALL", is_segmented(cast) && has_wall(view, cast)},
         {"MIXES", cast->count > 1 || events}, /* else the loop is that of one volume */
+        {"MANY_VOLUMES", cast->count > 4},    /* rays enter and leave them every few steps */
         {"HAS_EVENTS", events},
         {"HAS_STEPS", has_kind(view, cast, false)},
         {"HAS_OPAQUE", has_depths(view)},

@@ -90,7 +90,7 @@ float part_count(const in vec4 needs, const in float share, const in float throu
 #endif
 
 #if SKIPS
-#if LEAPS
+#if LEAPS && !MIXES
 const int LOOK_AHEAD = 8; /* steps; then it may be time to leap again */
 #else
 const int LOOK_AHEAD = 32; /* steps, one a bit */
@@ -103,7 +103,11 @@ uint ahead_opaque;
 
 #if MIXES
 /* The steps ahead lie in a few pieces of parts of the ray, see step_way. */
+#if MANY_VOLUMES
+const int PIECES = 8;
+#else
 const int PIECES = 4;
+#endif
 float piece_t[PIECES];
 float piece_next[PIECES];
 float piece_length[PIECES];

@@ -1,7 +1,7 @@
 /* A volume that fills its box: samples in steps along the ray. A unit of Volume.glsl's effect. */
 
 void ray_begins(const in vec3 origin_eye, const in vec3 direction_eye) {
-#if LEAPS
+#if HAS_LEAPS
     cells_begin(voxel_count());
 #endif
 }
@@ -27,9 +27,9 @@ bool is_visible(const in float t) {
 #endif
 }
 
-#if LEAPS
-/* How many samples from that at t on lie in blocks where nothing can be seen. */
-void PLUG_volume_leap(const in float t, const in float step_length, inout int steps) {
+#if HAS_LEAPS
+/* How many samples from that at t on lie in blocks where nothing can be seen, if steps are at most so long. */
+void pass_clear(const in float t, const in float step_length, inout int steps) {
     vec3 corner;
     float blocks = leap_at(cell_origin + t * cell_direction, corner);
     vec3 ends = (corner - cell_origin) * cell_inverse;
@@ -37,6 +37,12 @@ void PLUG_volume_leap(const in float t, const in float step_length, inout int st
     float behind = (end - t) * (1.0 / step_length) - 1.0e-3;
     steps = blocks > 0.0 ? min(1 + int(clamp(behind, 0.0, float(steps))), steps) : 0;
 }
+
+#if !MIXES
+void PLUG_volume_leap(const in float t, const in float step_length, inout int steps) {
+    pass_clear(t, step_length, steps);
+}
+#endif
 #endif
 
 #if MIXES
@@ -54,14 +60,35 @@ void PLUG_volume_plan(const in int first, const in int count, const in float t) 
     }
 }
 
+/* Notes in which of these it may be seen. */
+void look_at(inout uint visible, const in int k) {
+    vec2 way = ahead_way(k);
+    if (is_visible(way.x + 0.5 * way.y))
+        visible |= 1u << uint(k);
+}
+
 /* Mixes what can be seen of this volume into the steps ahead. */
 void PLUG_volume_mix_ahead(const in vec3 origin_eye, const in vec3 direction_eye) {
     uint visible = 0u;
-    for (int k = ahead_start; k < ahead_end; k++) {
-        vec2 way = ahead_way(k);
-        if (is_visible(way.x + 0.5 * way.y))
-            visible |= 1u << uint(k);
+#if HAS_LEAPS
+    const int LOOKS = 8; /* then it may be time to leap again */
+    float longest = sampleDistance / ray_speed;
+    for (int k = ahead_start; k < ahead_end;) {
+        while (k < ahead_end) {
+            vec2 way = ahead_way(k);
+            int leap = ahead_end - k;
+            pass_clear(way.x + 0.5 * way.y, longest, leap);
+            if (leap == 0)
+                break;
+            k += leap;
+        }
+        for (int end = min(k + LOOKS, ahead_end); k < end; k++)
+            look_at(visible, k);
     }
+#else
+    for (int k = ahead_start; k < ahead_end; k++)
+        look_at(visible, k);
+#endif
     while (visible != 0u) {
         int k = lowest_bit(visible);
         uint bit = 1u << uint(k);

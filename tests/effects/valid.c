@@ -262,6 +262,7 @@ static const plr_define colored[] = {{"HAS_COLORS", "1"},
                                      {"OPAQUE", "0"}};
 /* The units of a volume's effect, by what it does along the ray. */
 #define STEPPED "volume/Volume volume/grid volume/steps"
+#define LEAPING "volume/Volume volume/grid volume/leaps volume/steps"
 #define SURFACES "volume/Volume volume/grid volume/levels volume/crossings volume/surfaces"
 #define PROJECTED "volume/Volume volume/grid volume/projection"
 /* And along the way of light. */
@@ -280,7 +281,7 @@ static const plr_define fog_of_volume[] = {
         "PICKS", "0"                                                                               \
     }
 #define NO_SEGMENTS                                                                                \
-    {"SEGMENTS", "0"}, {"CELLS", "0"}, {"LEAPS", "0"}, {                                           \
+    {"SEGMENTS", "0"}, {"CELLS", "0"}, {"LEAPS", "0"}, {"HAS_LEAPS", "0"}, {                       \
         "HAS_WALL", "0"                                                                            \
     }
 #define EVERY_STEP                                                                                 \
@@ -298,10 +299,15 @@ static const plr_define one_leaping[] = {
     {"MIXES", "0"},     {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
     {"EARLY_END", "1"}, {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SEGMENTS", "0"},
     {"CELLS", "0"},     {"LEAPS", "1"},      {"HAS_WALL", "0"},  {"SKIPS", "1"}};
+static const plr_define many_leaping[] = {
+    {"MIXES", "1"},       {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"},   {"HAS_CUT", "0"},    WHOLE_RAYS,         {"SEGMENTS", "0"},
+    {"CELLS", "0"},       {"LEAPS", "1"},      {"HAS_WALL", "0"},  {"SKIPS", "1"},
+    {"MANY_VOLUMES", "1"}};
 static const plr_define two_skipping[] = {
-    {"MIXES", "1"},      {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"},
-    {"HAS_OPAQUE", "0"}, {"EARLY_END", "1"},  {"HAS_CUT", "0"},
-    WHOLE_RAYS,          NO_SEGMENTS,         {"SKIPS", "1"}};
+    {"MIXES", "1"},     {"HAS_EVENTS", "0"},  {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "0"},
+    {"EARLY_END", "1"}, {"HAS_CUT", "0"},     WHOLE_RAYS,         NO_SEGMENTS,
+    {"SKIPS", "1"},     {"MANY_VOLUMES", "0"}};
 #define CUT(cells, leaps, mixes, wall)                                                             \
     {                                                                                              \
         {"MIXES", mixes}, {"HAS_EVENTS", "0"}, {"HAS_STEPS", "1"}, {"HAS_OPAQUE", "1"},            \
@@ -365,6 +371,16 @@ static const plr_define picks[] = {{"MIXES", "1"},      {"HAS_EVENTS", "1"},   {
                                    EVERY_STEP};
 static const plr_define keeping[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"KEEPS_CLEAR", "1"}};
+static const plr_define keeping_leaping[] = {{"voxels_COMPONENTS", "1"},
+                                             {"HAS_LABELS", "0"},
+                                             {"PROJECTS", "0"},
+                                             {"KEEPS_CLEAR", "1"},
+                                             {"HAS_LEAPS", "1"}};
+static const plr_define keeping_looking[] = {{"voxels_COMPONENTS", "1"},
+                                             {"HAS_LABELS", "0"},
+                                             {"PROJECTS", "0"},
+                                             {"KEEPS_CLEAR", "1"},
+                                             {"HAS_LEAPS", "0"}};
 static const plr_define scalar[] = {
     {"voxels_COMPONENTS", "1"}, {"HAS_LABELS", "0"}, {"PROJECTS", "0"}, {"HAS_gradients", "0"}};
 static const plr_define labelled[] = {
@@ -694,7 +710,7 @@ static const recipe recipes[] = {
      .absent = "VolumeMix ahead_sums leaps"},
     {"one volume that leaps ahead",
      "volume/raycaster",
-     {{.path = "volume/Volume volume/grid volume/leaps volume/steps", DEFINES(keeping)},
+     {{.path = LEAPING, DEFINES(keeping_leaping)},
       {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
       {.path = "volume/Composite"}},
      DEFINES(one_leaping),
@@ -708,6 +724,14 @@ static const recipe recipes[] = {
       {.path = "volume/Composite"}},
      DEFINES(two_skipping),
      .present = "lowest_bit volume_visible VolumeMix ahead_sums piece_t"},
+    {"many volumes, of which one leaps ahead",
+     "volume/raycaster",
+     {{.path = LEAPING, DEFINES(keeping_leaping)},
+      {.path = STEPPED, DEFINES(keeping_looking)},
+      {.path = "volume/OpacityMapVolumeStyle", DEFINES(leading), .attached = 1},
+      {.path = "volume/Composite"}},
+     DEFINES(many_leaping),
+     .present = "lowest_bit pass_clear leaps VolumeMix ahead_sums piece_t"},
     {"one volume in segments",
      "volume/raycaster",
      {{.path = TABLED "volume/segments", DEFINES(tabled)}, {.path = "volume/Composite"}},

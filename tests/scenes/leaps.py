@@ -54,6 +54,37 @@ def together():
     suite.check("something is seen", max(found[3::4]) > 0.05, max(found[3::4]))
 
 
+def leaping(*parts):
+    """How many volumes do, where there is no context: there are 16 textures, of which one has the functions."""
+    result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": front_scene(*parts)})
+    suite.equal("no word about layers", result.errors, "")
+    return open(os.path.join(result.folder, "out", "volume-1.frag"), encoding="utf-8").read().count("uniform usampler3D ")
+
+
+@suite.case
+def mixed():
+    "volumes together, sampled in steps: each leaps by its own blocks and changes no bit; where textures are few, some do not"
+    dice, side = random.Random(7), 16
+
+    def turned(i, part, function):
+        data = voxels(1, (side,) * 3, (dice.randrange(160, 256) if dice.random() < part else 0 for _ in range(side ** 3)))
+        return ("Transform { translation %g %g %g rotation 1 .3 .2 %g scale %g 1 1 children %s }\n"
+                % (*(dice.uniform(-0.4, 0.4) for _ in range(3)), 0.3 * i, dice.uniform(0.7, 1.3),
+                   volume(data, opacity_map(function))))
+
+    crowd = [turned(i, 0.003, [0, 0, 0x80C04040, 0xFF8000C0]) for i in range(9)]
+    everywhere = turned(0, 0.5, [0x10204008, 0x80C04080])
+    plain = "Transform { translation .9 0 0 children %s }\n" % volume(voxels(2, (2, 2, 2), [0x8040] * 8))
+    for name, step, parts in (("three, one of them nowhere clear, one without a function", 0.13,
+                               [everywhere, crowd[0], plain]), ("two, one of them without a function", 0.3, [crowd[0], plain]),
+                              ("five", 0.2, crowd[:5])):
+        found = same_bits(name, front_scene(*parts), ("--step", str(step)))
+        suite.check(f"{name}: something is seen", max(found[3::4]) > 0.05, max(found[3::4]))
+    for count, expected in ((5, 5), (7, 7), (8, 7), (9, 6)):
+        suite.equal(f"{count} volumes: so many leap", leaping(*crowd[:count]), expected)
+    suite.equal("not that which is nowhere clear", leaping(everywhere, *crowd[:4]), 4)
+
+
 @suite.case
 def far():
     "leaps end before what can be seen, however long they are"
