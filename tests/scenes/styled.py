@@ -128,6 +128,24 @@ def highlights():
     suite.check("a quarter by less than 0.0005", found[1] < 0.0005, found)
 
 
+def looks_twice(*parts):
+    """Whether the program has styles look at a place twice."""
+    result = suite.command("dump", "scene.x3dv", "-d", "out", files={"scene.x3dv": scene(CAMERA, *parts)})
+    with open(os.path.join(result.folder, "out", "volume-1.frag"), encoding="utf-8") as file:
+        return "style_turned" in file.read()
+
+
+@suite.case
+def twice():
+    "only where normals are asked for, and no rays of light are walked"
+    shadows = STYLES["lit"].replace("lighting TRUE", "lighting TRUE shadows TRUE")
+    found = [looks_twice(LIGHTS, volume(style)) for style in
+             (STYLES["lit"], STYLES["boundaries"], shadows)]
+    suite.check("lit; not: boundaries, shadows", found == [True, False, False], found)
+    beside = "Transform { translation 3 0 0 children " + volume(shadows) + "}"
+    suite.check("nor where another volume casts shadows", not looks_twice(LIGHTS, volume(STYLES["lit"]), beside))
+
+
 @suite.case
 def opaque():
     "opaque values are lit, and hide"
