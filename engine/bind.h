@@ -95,10 +95,10 @@ typedef struct plr_volume_state {
     plr_texture *ranges;    /* bounds of it */
     float seen[2];          /* outside of this open interval the table has nothing */
     size_t full_blocks;     /* where it does */
-    double mean_leap;       /* in voxels, of a side; 0 where something can be seen */
-    double visible[2][3];   /* the box of these, 0 to 1; that of all where nothing may be left out */
+    double visible[2][3]; /* the box of these, 0 to 1; that of all where nothing may be left out */
     plr_texture *leaps;
-    bool leaping; /* past samples in the middle of steps, by these */
+    const uint32_t *leap_sides; /* what it holds: plr_blocks_leaps */
+    bool leaping;               /* past samples in the middle of steps, by these */
 } plr_volume_state;
 
 /* A convex outline in the picture. */

@@ -52,7 +52,8 @@ typedef struct plr_cast {
     plr_plan plan;            /* how rays are integrated */
     double allowed;           /* error of the integral along a ray, of PLR_METHOD_CELLS */
     bool dense;               /* next to nothing is clear: nobody looks for what is not */
-    bool short_leaps;         /* so short that nobody leaps */
+    bool short_leaps;         /* so short that nobody leaps: */
+    double leap_gain;         /* plr_leaps_gain */
     bool early_end;           /* rays may end early, and be cut into slabs */
     plr_piloted *piloted;     /* NULL: pilots have nothing to do with it */
 } plr_cast;

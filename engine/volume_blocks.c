@@ -180,40 +180,39 @@ static void find_cubes(const plr_blocks *blocks, const bool *full, int octant, u
 
 /* In 4 bits: numbers up to 10 as they are, then every eighth (leap_at in
  * effects/volume/leaps.glsl). */
+enum {
+    EXACT = 10,
+    COARSE = 8,
+    MOST_CODE = 15,
+    CODE_BITS = 4
+};
+
 static uint32_t encode(uint8_t side) {
-    enum {
-        EXACT = 10,
-        COARSE = 8,
-        MOST = 15
-    };
     uint32_t code = side;
     if (code > EXACT)
         code = EXACT + (code - EXACT) / COARSE;
-    return code < MOST ? code : MOST;
+    return code < MOST_CODE ? code : MOST_CODE;
 }
 
-bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps, double *mean) {
+uint32_t plr_blocks_side(uint32_t leaps, uint32_t octant) {
+    uint32_t code = leaps >> CODE_BITS * octant & MOST_CODE;
+    return code > EXACT ? EXACT + (code - EXACT) * COARSE : code;
+}
+
+bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps) {
     enum {
-        OCTANTS = 8,
-        BITS = 4
+        OCTANTS = 8
     };
     size_t count = plr_blocks_count(blocks);
-    uint32_t longest = blocks->size[0];
-    for (int axis = 1; axis < 3; axis++)
-        longest = blocks->size[axis] > longest ? blocks->size[axis] : longest;
     uint8_t *cubes = malloc(count + blocks->size[0]);
     if (!cubes)
         return false;
     memset(leaps, 0, count * sizeof *leaps);
-    double sum = 0;
     for (int octant = 0; octant < OCTANTS; octant++) {
         find_cubes(blocks, full, octant, cubes + count, cubes);
-        for (size_t i = 0; i < count; i++) {
-            leaps[i] |= encode(cubes[i]) << (BITS * octant);
-            sum += cubes[i] < longest ? cubes[i] : longest;
-        }
+        for (size_t i = 0; i < count; i++)
+            leaps[i] |= encode(cubes[i]) << (CODE_BITS * octant);
     }
     free(cubes);
-    *mean = sum / ((double)count * OCTANTS);
     return true;
 }

@@ -27,9 +27,11 @@ void plr_blocks_add_labels(plr_arena *arena, plr_blocks *blocks, const plr_image
 /* For each block eight numbers of 4 bits: how many blocks a side, itself at a corner, the greatest
  * cube has in which none is `full` (one flag a block), for each octant of directions that it may
  * extend to: 1, 2 and 4 of its number are set where it goes down along x, y and z. What is outside
- * is not full. Codes above 10 stand for 18, 26, ... 50 blocks, or a few more. `mean`: of all
- * numbers, none greater than the longest side of the whole, or 255. False: out of memory. */
-bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps, double *mean);
+ * is not full. Codes above 10 stand for 18, 26, ... 50 blocks, or a few more. False: out of memory.
+ */
+bool plr_blocks_leaps(const plr_blocks *blocks, const bool *full, uint32_t *leaps);
+/* The number of blocks for one octant. */
+uint32_t plr_blocks_side(uint32_t leaps, uint32_t octant);
 size_t plr_blocks_count(const plr_blocks *blocks);
 
 #endif

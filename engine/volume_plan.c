@@ -9,6 +9,7 @@
 #include "engine/image_internal.h"
 #include "engine/volume_blocks.h"
 #include "engine/volume_certain.h"
+#include "engine/volume_leaps.h"
 #include "engine/volume_maps.h"
 #include "engine/volume_pass.h"
 #include "engine/volume_segments.h"
@@ -132,8 +133,9 @@ plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
                        .depth = blocks->size[2],
                        .components = 1,
                        .type = PLR_UINT32};
+    uint32_t *sides = plr_arena_array(&view->arena, count, sizeof *sides);
     bool *full = malloc(count * sizeof *full);
-    image.samples = malloc(count * sizeof(uint32_t));
+    image.samples = malloc(count * sizeof *sides);
     state->full_blocks = 0;
     see(state, 1, 0);
     for (size_t i = 0; full && i < count; i++) {
@@ -142,14 +144,14 @@ plr_texture *plr_volume_make_leaps(plr_view *view, plr_volume_state *state,
         if (full[i])
             add_visible(state, i);
     }
-    bool made =
-        full && image.samples && plr_blocks_leaps(blocks, full, image.samples, &state->mean_leap);
-    state->mean_leap *= blocks->cells;
+    bool made = full && image.samples && plr_blocks_leaps(blocks, full, sides);
     free(full);
     if (!made) {
         free(image.samples);
         longjmp(*view->arena.out_of_memory, 1);
     }
+    memcpy(image.samples, sides, count * sizeof *sides);
+    state->leap_sides = sides;
     return plr_textures_make(&view->textures, &image, PLR_TEXTURE_3D_LABELS, false);
 }
 
@@ -340,21 +342,19 @@ static bool are_full(const plr_view *view, const plr_cast *cast) {
     return full;
 }
 
-/* Shorter leaps, in the mean over a volume, cost more than they save: in steps, or in cells.
- * Measured with single voxels at random, and with small spheres. */
-static const double worth_a_look[] = {
-    [PLR_METHOD_MIDPOINT] = 6, [PLR_METHOD_PREINTEGRATED] = 12, [PLR_METHOD_CELLS] = 3};
-
-static bool are_leaps_short(const plr_cast *cast, const plr_volume_state *state,
-                            plr_method method) {
-    double step = method == PLR_METHOD_CELLS ? 1 : cast->plan.step;
-    return !state->general && state->mean_leap < worth_a_look[method] * step;
+/* Whether leaps cost more than they save. */
+static bool are_leaps_short(plr_cast *cast, const plr_volume_state *state, plr_method method) {
+    if (state->general) /* it serves whatever can be seen */
+        return false;
+    double gain = plr_leaps_gain(state->blocks, state->leap_sides, method, cast->plan.step);
+    cast->leap_gain = fmax(cast->leap_gain, gain);
+    return gain < plr_leaps_least_gain(method);
 }
 
-static bool are_all_short(const plr_view *view, const plr_cast *cast, plr_method method) {
+static bool are_all_short(const plr_view *view, plr_cast *cast, plr_method method) {
     bool all = true;
     for (size_t i = 0; i < cast->count; i++)
-        all = all && are_leaps_short(cast, &view->volumes.volumes[cast->members[i]], method);
+        all = are_leaps_short(cast, &view->volumes.volumes[cast->members[i]], method) && all;
     return all;
 }
 
@@ -386,6 +386,7 @@ static void choose(plr_view *view, plr_cast *cast, bool early_end) {
     plr_plan *plan = &cast->plan;
     bool fixed = desc->step > 0;
     cast->dense = cast->short_leaps = false;
+    cast->leap_gain = 0;
     *plan = (plr_plan){.asked = fixed             ? 0
                                 : desc->error > 0 ? desc->error
                                                   : USUAL_ERROR,

@@ -1,5 +1,4 @@
 /* The plan of a cast in words: each choice, why, what it costs and what bound it gives. */
-#include <math.h>
 #include <string.h>
 
 #include "engine/light_strength.h"
@@ -39,17 +38,14 @@ static plr_choice say_skips(const plr_view *view, const plr_cast *cast, bool ear
 }
 
 static plr_choice say_short_leaps(plr_view *view, const plr_cast *cast, bool early_end) {
-    double mean = 0;
-    for (size_t i = 0; i < cast->count; i++)
-        mean = fmax(mean, view->volumes.volumes[cast->members[i]].mean_leap);
     bool samples =
         cast->plan.method == PLR_METHOD_MIDPOINT && plr_cast_skips(view, cast, early_end);
     return (plr_choice){
         "skipping", samples ? "of clear samples" : "none",
         plr_arena_format(&view->arena,
-                         "leaps over blocks would be of %.2g voxels in the mean, 0 where something "
-                         "can be seen: to look for them would cost more than they save",
-                         mean)};
+                         "with leaps over blocks rays would find what can be seen %.2f times as "
+                         "fast: they would cost more than they save",
+                         cast->leap_gain)};
 }
 
 static plr_choice say_leaps(plr_view *view, const plr_cast *cast, bool early_end) {

@@ -1,4 +1,5 @@
-/* Leaps through blocks: in each octant of directions as far as all is clear, and no farther. */
+/* Leaps through blocks: in each octant of directions as far as all is clear, and no farther; and
+ * what they gain. */
 #include "tests/tap.h"
 
 #include <math.h>
@@ -6,6 +7,7 @@
 #include <stdlib.h>
 
 #include "engine/volume_blocks.h"
+#include "engine/volume_leaps.h"
 
 enum {
     MOST = 4096
@@ -48,29 +50,6 @@ static bool is_clear(const blocks *b, const int at[3], int octant, int side) {
 /* What codes stand for; the one behind the last leads on for ever. */
 static const int sides[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 18, 26, 34, 42, 50};
 
-/* The mean side of clear cubes, one by one. */
-static double find_mean(const blocks *b) {
-    int longest = 0;
-    double sum = 0;
-    enum {
-        GREATEST = 255
-    };
-    for (int axis = 0; axis < 3; axis++)
-        longest = (int)b->shape.size[axis] > longest ? (int)b->shape.size[axis] : longest;
-    longest = longest < GREATEST ? longest : GREATEST;
-    for (int z = 0; z < (int)b->shape.size[2]; z++)
-        for (int y = 0; y < (int)b->shape.size[1]; y++)
-            for (int x = 0; x < (int)b->shape.size[0]; x++)
-                for (int octant = 0; octant < 8; octant++) {
-                    const int at[3] = {x, y, z};
-                    int side = 0;
-                    while (side < longest && is_clear(b, at, octant, side + 1))
-                        side++;
-                    sum += side;
-                }
-    return sum / 8 / (double)plr_blocks_count(&b->shape);
-}
-
 /* How many codes of all blocks and octants lead into what is full, or less far than they could. */
 static size_t count_wrong(const blocks *b) {
     size_t wrong = 0;
@@ -80,6 +59,8 @@ static size_t count_wrong(const blocks *b) {
                 for (int octant = 0; octant < 8; octant++) {
                     const int at[3] = {x, y, z};
                     uint32_t code = b->leaps[index_of(b, at)] >> 4 * octant & 15;
+                    wrong += plr_blocks_side(b->leaps[index_of(b, at)], (uint32_t)octant) !=
+                             (uint32_t)sides[code];
                     wrong += !is_clear(b, at, octant, sides[code]) ||
                              (code < 15 && is_clear(b, at, octant, sides[code + 1]));
                 }
@@ -94,13 +75,35 @@ static void check(const char *name, uint32_t x, uint32_t y, uint32_t z, unsigned
         state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         b.full[i] = one_of && (state >> 33) % one_of == 0;
     }
-    double mean = -1;
-    bool made = plr_blocks_leaps(&b.shape, b.full, b.leaps, &mean);
+    bool made = plr_blocks_leaps(&b.shape, b.full, b.leaps);
     size_t wrong = made ? count_wrong(&b) : 1;
     TAP_RESULT(made && wrong == 0, "%s", name);
     if (wrong)
         printf("#   %zu wrong\n", wrong);
-    CHECK_NEAR(mean, find_mean(&b), 1e-9);
+}
+
+/* What is gained where the first part of the layers along x is clear. */
+static double find_gain(unsigned clear, plr_method method, double step) {
+    enum {
+        SIDE = 16
+    };
+    static blocks b;
+    b.shape = (plr_blocks){.cells = 2, .size = {SIDE, SIDE, SIDE}};
+    for (size_t i = 0; i < plr_blocks_count(&b.shape); i++)
+        b.full[i] = i % SIDE >= clear;
+    return plr_blocks_leaps(&b.shape, b.full, b.leaps)
+               ? plr_leaps_gain(&b.shape, b.leaps, method, step)
+               : -1;
+}
+
+/* A look costs 2 steps, of which 8 are taken together. */
+static void check_gains(plr_method method) {
+    CHECK_NEAR(find_gain(0, method, 0.5), 0.8, 1e-9);
+    CHECK(find_gain(16, method, 0.25) > 8);
+    double some = find_gain(4, method, 0.25), half = find_gain(8, method, 0.25);
+    CHECK(some > 0.8 && some < 1.2);
+    CHECK(half > 1.1 * some && half < 2);
+    CHECK(plr_leaps_least_gain(method) >= 1 && plr_leaps_least_gain(method) < 1.5);
 }
 
 int main(void) {
@@ -113,5 +116,8 @@ int main(void) {
     check("many full", 9, 7, 8, 5);
     check("few full", 15, 13, 14, 300);
     check("flat", 20, 1, 19, 60);
+    check_gains(PLR_METHOD_MIDPOINT);
+    check_gains(PLR_METHOD_PREINTEGRATED);
+    check_gains(PLR_METHOD_CELLS);
     return tap_done();
 }

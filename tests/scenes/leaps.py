@@ -103,17 +103,17 @@ def far():
 def short():
     "where leaps would be short, measured in steps, nobody leaps"
     dice, side = random.Random(6), 20
-    for part, expected in ((0.1, (False, False, False)), (0.008, (True, False, True))):
-        data = voxels(1, (side,) * 3, (255 if dice.random() < part else 0 for _ in range(side ** 3)))
-        text = front_scene(volume(data, opacity_map([0, 0, 0xFF800018])))
-        for method, leaps in zip(("midpoint", "preintegrated", "cells"), expected):
-            for step in (0.5, 0.02):
-                if method == "cells" and step != 0.5:
-                    continue
-                how = ("--method", method) if method == "cells" else ("--method", method, "--step", str(step))
-                result = suite.render(text, "-o", "picture.npy", *how, "--stats", "json")
-                suite.equal(f"{100 * part} % of voxels, {method}, step {step}", load_json(result.output)["plan"]["leaps"],
-                            leaps or step < 0.5)
+    noise = {part: voxels(1, (side,) * 3, (255 if dice.random() < part else 0 for _ in range(side ** 3)))
+             for part in (0.1, 0.02, 0.01, 0.002)}
+    for part, method, step, leaps in (
+            (0.1, "midpoint", 0.5, False), (0.1, "preintegrated", 0.125, False), (0.1, "cells", 0, False),
+            (0.01, "preintegrated", 1, False), (0.01, "preintegrated", 0.25, True), (0.02, "preintegrated", 0.25, False),
+            (0.02, "midpoint", 0.125, True), (0.02, "midpoint", 1, False), (0.02, "cells", 0, False),
+            (0.002, "midpoint", 1, True), (0.002, "preintegrated", 1, True), (0.002, "cells", 0, True)):
+        how = ("--method", method) if method == "cells" else ("--method", method, "--step", str(step))
+        text = front_scene(volume(noise[part], opacity_map([0, 0, 0xFF800018])))
+        found = load_json(suite.render(text, "-o", "picture.npy", *how, "--stats", "json").output)["plan"]["leaps"]
+        suite.equal(f"{100 * part} % of voxels, {method}, step {step}", found, leaps)
 
 
 if __name__ == "__main__":
